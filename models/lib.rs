@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Golden models (integers, bit-accurate) and exact references (f64) of Relief's blocks.
+//!
+//! This crate knows nothing of rust-hdl, so the reference cannot share a helper, and with it a bug, with the hardware.
+//! Number formats are run-time values here: a chart can sweep a width without a recompilation.
+
+pub mod fixed;
+pub mod step;
