@@ -1,2 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Synthesizable blocks in rust-hdl, their signal types, and the Verilog back-end.
+//! Synthesizable blocks of Relief in rust-hdl, their signal types, and the Verilog back-end.
+//!
+//! This crate never sees the golden models: what it computes is checked against them from outside, in the test bench.
+
+pub mod primitives;
+pub mod signal;
+
+/// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
+pub mod prelude {
+    pub use crate::primitives::{Multiplier, Ram, Register, Rom};
+    pub use crate::signal::{ClockReset, Input, Lanes, Output, S, Scalar, U, WideS, WideU, Wire, bit_cast_to};
+    pub use rust_hdl_core::prelude::{
+        Atom, AtomKind, Bit, Bits, Block, Constant, Logic, LogicBlock, LogicState, Probe, Synth, TimingInfo, ToBits,
+        TypeDescriptor, TypeField, TypeKind, VCDValue, Verilog, VerilogLiteral, ast, bit_cast, block, clock, clog2,
+        hdl_gen, logic, probe, synth, type_descriptor,
+    };
+    pub use rust_hdl_widgets::dff_setup;
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The leaves that a kernel cannot express: registers, memories and the multiplier. Each is simulated by hand-written
+//! Rust and emitted as hand-written Verilog, inlined into the module that uses it.
+//!
+//! In an inlined text `@` stands for the instance's name, `clock` and `reset` for the module's own.
+
+mod memory;
+mod multiplier;
+mod register;
+
+pub use memory::{Ram, Rom};
+pub use multiplier::Multiplier;
+pub use register::Register;
+
+/// First line of the text of a [`Verilog::Custom`](rust_hdl_core::ast::Verilog) that is pasted into its parent.
+pub const INLINE: &str = "//inline\n";
