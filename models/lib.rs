@@ -5,4 +5,7 @@
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
 pub mod fixed;
+pub mod remesher;
 pub mod step;
+pub mod strip_unit;
+pub mod vertex_adder;
