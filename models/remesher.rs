@@ -30,12 +30,15 @@
 
 mod edge;
 pub mod exact;
+mod place;
 mod port;
 mod setup;
+mod strips;
 mod sweep;
+mod walk;
 
 pub use edge::EdgeSetup;
-pub use port::{Place, Rung};
+pub use place::{Place, Rung};
 pub use setup::{Case, Setup};
 
 use crate::step::{MAX_COMPONENTS, Step, Vertex};
@@ -172,12 +175,12 @@ impl BaseTriangle {
 ///
 /// Takes whatever [`BaseTriangle::validate`] accepts, at any shape: coincident and collinear corners are stitched too.
 pub fn golden(format: &Format, base: &BaseTriangle, sink: &mut impl FnMut(&Step)) {
-    sweep::run(format, base, &Setup::new(format, base), &mut port::Beats(sink));
+    sweep::run(format, base, &Setup::new(format, base), &mut place::Beats(sink));
 }
 
 /// As [`golden`], and tells with each beat where its vertices lie on the base triangle.
 ///
 /// [`Rung::triangles`] gives the triangles of the sweep without the strip unit's decoding.
 pub fn observe(format: &Format, base: &BaseTriangle, sink: &mut impl FnMut(&Step, &Rung)) {
-    sweep::run(format, base, &Setup::new(format, base), &mut port::Watched(sink));
+    sweep::run(format, base, &Setup::new(format, base), &mut place::Watched(sink));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Adds a difference vertex to a vertex, component by component.
 //!
-//! out[i] = vertex[i] + difference[i]  (mod 2^W): wraps, and is right whenever the true value fits
+//! `out[i] = vertex[i] + difference[i]  (mod 2^W)`: wraps, and is right whenever the true value fits
 //!
 //! | port       | format                      | range |
 //! |------------|-----------------------------|-------|
