@@ -17,7 +17,7 @@ pub struct EdgeSetup {
     pub low: usize,
     /// The other corner.
     pub high: usize,
-    /// `D = floor((V[high] - V[low]) * 2^g / n + 1/2)`, W bits a component. It fits: |V[high]-V[low]| < 2^W0.
+    /// `D = floor((V[high] - V[low]) * 2^g / n + 1/2)`, W bits a component. It fits: `|V[high] - V[low]| < 2^W0`.
     pub difference: Vertex,
     /// `(V[high] - V[low]) * 2^g - n * D`, the divider's remainder, in `-n/2..=n/2`.
     pub remainder: Vertex,

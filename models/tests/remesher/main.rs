@@ -293,7 +293,32 @@ fn remesher_setup_orients_every_triangle() {
             _ => assert!(a[1] <= c[1] && c[1] <= b[1], "{:?}", base.corners),
         }
         assert_eq!(setup.mirror_sweep, setup.case == Case::Decreasing);
+        // The longest primary edge, the larger projected area; of equals the first.
+        let p = |k: usize, axis: usize| i64::from(base.corners[k % 3][axis]);
+        let primary = |e: usize| {
+            let axis = setup.edges[e].axis;
+            let (low, high) = (p(e, axis).min(p(e + 1, axis)), p(e, axis).max(p(e + 1, axis)));
+            setup.edges[e].segments > 0 && low <= p(e + 2, axis) && p(e + 2, axis) <= high
+        };
+        assert!(primary(setup.primary));
+        for e in (0..3).filter(|&e| primary(e)) {
+            let rank = |e: usize| (setup.edges[e].segments, 3 - e);
+            assert!(rank(e) <= rank(setup.primary), "{:?}", base.corners);
+        }
+        let area = |d: usize| {
+            let s = setup.sweep;
+            let span = |k: usize, axis: usize| p(k, axis) - p(0, axis);
+            (span(1, s) * span(2, d) - span(1, d) * span(2, s)).abs()
+        };
+        assert_eq!(setup.double_area, area(setup.side));
+        for d in (0..3).filter(|&d| d != setup.sweep) {
+            assert!((area(d), 3 - d) <= (area(setup.side), 3 - setup.side), "{:?}", base.corners);
+        }
         for (k, e) in setup.edges.iter().enumerate() {
+            let spans = [0, 1, 2].map(|axis| (p(k + 1, axis) - p(k, axis)).unsigned_abs());
+            assert!((0..3).all(|d| (spans[d], 3 - d) <= (spans[e.axis], 3 - e.axis)), "edge {k} of {:?}", base.corners);
+            assert_eq!(u64::from(e.segments), spans[e.axis]);
+            assert!(p(e.low, e.axis) <= p(e.high, e.axis));
             let n = i128::from(e.segments);
             for x in 0..FORMAT.components {
                 let total = i128::from(base.data[e.high][x] - base.data[e.low][x]) << FORMAT.guard_bits;
