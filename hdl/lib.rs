@@ -3,12 +3,15 @@
 //!
 //! This crate never sees the golden models: what it computes is checked against them from outside, in the test bench.
 
+pub mod ports;
 pub mod primitives;
+pub mod remesher;
 pub mod signal;
 pub mod verilog;
 
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
 pub mod prelude {
+    pub use crate::ports;
     pub use crate::primitives::{Multiplier, Ram, Register, Rom};
     pub use crate::signal::{ClockReset, Input, Lanes, Output, S, Scalar, U, WideS, WideU, Wire, bit_cast_to};
     pub use crate::verilog::module_name;

@@ -4,10 +4,12 @@
 //!
 //! In an inlined text `@` stands for the instance's name, `clock` and `reset` for the module's own.
 
+mod divider;
 mod memory;
 mod multiplier;
 mod register;
 
+pub use divider::Divider;
 pub use memory::{Ram, Rom};
 pub use multiplier::Multiplier;
 pub use register::Register;

@@ -9,11 +9,13 @@ mod cast;
 mod integer;
 mod lanes;
 mod port;
+mod words;
 
 pub use cast::{BitCast, Scalar, bit_cast_to};
 pub use integer::{S, U, WideS, WideU};
 pub use lanes::Lanes;
 pub use port::{ClockReset, Input, Output, Wire};
+pub use words::Words;
 
 /// Bit of the code returned by `Synth::bits` that says: two's complement.
 pub const SIGNED_FLAG: usize = 1 << 20;

@@ -5,6 +5,7 @@
 //! This is safe for clocked logic because every register sees the clock in the same pass, and latches after its
 //! parent's kernel has run and before any kernel can see the new state (see [`crate::primitives::Register`]).
 
+use super::Words;
 use rust_hdl_core::prelude::*;
 use rust_hdl_core::signal::get_signal_id;
 
@@ -100,6 +101,30 @@ macro_rules! port {
 port!(Input, AtomKind::InputParameter, "An input port.");
 port!(Output, AtomKind::OutputParameter, "An output port.", shown);
 port!(Wire, AtomKind::LocalSignal, "A signal inside a block: written first, read afterwards, in the same kernel.");
+
+impl<T: Words> Input<T> {
+    /// Words of 64 bits that the port takes.
+    pub const fn words(&self) -> usize {
+        T::WORDS
+    }
+    /// Writes the port from words, least significant first.
+    #[inline(always)]
+    pub fn set_words(&mut self, words: &[u64]) {
+        self.next = T::get(words);
+    }
+}
+
+impl<T: Words> Output<T> {
+    /// Words of 64 bits that the port takes.
+    pub const fn words(&self) -> usize {
+        T::WORDS
+    }
+    /// Reads the port as words, least significant first.
+    #[inline(always)]
+    pub fn get_words(&self, words: &mut [u64]) {
+        self.next.put(words);
+    }
+}
 
 macro_rules! silent {
     ($name:ident) => {

@@ -1,0 +1,448 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Roles of a base triangle: primary edge, remeshing plane, sweep direction, case and winding.
+//!
+//! The primary edge is the longest edge that holds the third corner's coordinate within its own along its main
+//! direction (ties: lowest index); A and B are its ends, C the side corner. The sweep coordinate s runs along it, the
+//! side coordinate d is the other axis of larger projected area. d is mirrored so that C lies above AB, and s where
+//! C lies below A (decreasing), after which A and B change places and the triangle is an increasing one.
+//! All coordinates leave relative to A. (Gumhold & Huettner 1999, section 3.1, amended.)
+//!
+//! | port          | format        | range |   Latency 13, then the slower of edge_setup and interior_setup
+//! | in_*          | stream        | corners 3 x signed N, vertex data L x signed V |
+//! | record_*      | stream        | stands still from `record_valid` to `record_ready` |
+//! | s_*, d_*, n_* | signed T      | relative to A, mirrored | Golden: models::remesher (setup)   Error 0
+
+use crate::prelude::*;
+use crate::remesher::EdgeMeasure;
+
+/// Step of the set-up.
+#[derive(Copy, Clone, PartialEq, Eq, Debug, LogicState)]
+#[allow(missing_docs)]
+pub enum SetupState {
+    Idle,
+    /// Lengths and main directions of the edges.
+    Measure,
+    /// Which edges are primary.
+    Primary,
+    /// Rotates the longest primary edge to AB.
+    Choose,
+    /// Swaps A and B so that s grows from A to B.
+    Orient,
+    /// Four products of the two candidate areas.
+    Areas,
+    /// Takes the larger area, mirrors d.
+    Plane,
+    /// Roof, increasing or decreasing.
+    Case,
+    /// Starts interior_setup.
+    Interior,
+    /// Waits for the divisions, then for the sweep.
+    Wait,
+}
+
+/// Triangle set-up: `N` bits of coordinate, `T` = N + 3 bits of scalar, `A` = 2 N + 3 bits of area.
+#[derive(Clone, Debug, LogicBlock)]
+#[allow(missing_docs)]
+pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T: usize, const A: usize> {
+    pub clock: Input<ClockReset>,
+    pub in_valid: Input<Bit>,
+    pub in_ready: Output<Bit>,
+    pub in_p0: Input<Lanes<3, N>>,
+    pub in_p1: Input<Lanes<3, N>>,
+    pub in_p2: Input<Lanes<3, N>>,
+    pub in_v0: Input<Lanes<L, V>>,
+    pub in_v1: Input<Lanes<L, V>>,
+    pub in_v2: Input<Lanes<L, V>>,
+    /// One cycle each: the units may begin.
+    pub edge_start: Output<Bit>,
+    pub interior_start: Output<Bit>,
+    /// One of the two is at work.
+    pub units_busy: Input<Bit>,
+    pub record_valid: Output<Bit>,
+    pub record_ready: Input<Bit>,
+    pub corner_a: Output<Lanes<L, V>>,
+    pub corner_b: Output<Lanes<L, V>>,
+    pub corner_c: Output<Lanes<L, V>>,
+    pub n_ab: Output<S<T>>,
+    pub n_ac: Output<S<T>>,
+    pub n_bc: Output<S<T>>,
+    pub a_hi_ab: Output<Bit>,
+    pub a_hi_ac: Output<Bit>,
+    pub b_hi_bc: Output<Bit>,
+    pub s_b: Output<S<T>>,
+    pub s_c: Output<S<T>>,
+    pub d_b: Output<S<T>>,
+    pub d_c: Output<S<T>>,
+    pub area2: Output<S<A>>,
+    pub roof: Output<Bit>,
+    /// All corners fall on one grid point.
+    pub point: Output<Bit>,
+    /// (A, B, C) is an odd permutation of the corners.
+    pub swap: Output<Bit>,
+    state: Register<SetupState>,
+    round: Register<U<3>>,
+    // Corners and the edges ab, bc, ca between them: length, main direction, primary.
+    pa: Register<Lanes<3, T>>,
+    pb: Register<Lanes<3, T>>,
+    pc: Register<Lanes<3, T>>,
+    va: Register<Lanes<L, V>>,
+    vb: Register<Lanes<L, V>>,
+    vc: Register<Lanes<L, V>>,
+    len_ab: Register<S<T>>,
+    len_bc: Register<S<T>>,
+    len_ca: Register<S<T>>,
+    dir_ab: Register<U<2>>,
+    dir_bc: Register<U<2>>,
+    dir_ca: Register<U<2>>,
+    prime_ab: Register<Bit>,
+    prime_bc: Register<Bit>,
+    prime_ca: Register<Bit>,
+    odd: Register<Bit>,
+    decreasing: Register<Bit>,
+    is_roof: Register<Bit>,
+    is_point: Register<Bit>,
+    sb: Register<S<T>>,
+    sc: Register<S<T>>,
+    db: Register<S<T>>,
+    dc: Register<S<T>>,
+    area: Register<S<A>>,
+    // The second candidate for the side axis.
+    db_other: Register<S<T>>,
+    dc_other: Register<S<T>>,
+    product: Register<S<A>>,
+    area_other: Register<S<A>>,
+    multiplier: crate::primitives::Multiplier<T, T, A>,
+    edge_ab: EdgeMeasure<T>,
+    edge_bc: EdgeMeasure<T>,
+    edge_ca: EdgeMeasure<T>,
+    exchange: Wire<Bit>,
+    axis: Wire<U<2>>,
+    side_axis: Wire<U<2>>,
+    other_axis: Wire<U<2>>,
+    magnitude: Wire<S<A>>,
+    magnitude_other: Wire<S<A>>,
+}
+
+impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: usize> Default
+    for TriangleSetup<L, V, N, T, A>
+{
+    fn default() -> Self {
+        assert!(T == N + 3 && A == 2 * N + 3, "T is N + 3 and A is 2 N + 3");
+        Self {
+            clock: Input::default(),
+            in_valid: Input::default(),
+            in_ready: Output::default(),
+            in_p0: Input::default(),
+            in_p1: Input::default(),
+            in_p2: Input::default(),
+            in_v0: Input::default(),
+            in_v1: Input::default(),
+            in_v2: Input::default(),
+            edge_start: Output::default(),
+            interior_start: Output::default(),
+            units_busy: Input::default(),
+            record_valid: Output::default(),
+            record_ready: Input::default(),
+            corner_a: Output::default(),
+            corner_b: Output::default(),
+            corner_c: Output::default(),
+            n_ab: Output::default(),
+            n_ac: Output::default(),
+            n_bc: Output::default(),
+            a_hi_ab: Output::default(),
+            a_hi_ac: Output::default(),
+            b_hi_bc: Output::default(),
+            s_b: Output::default(),
+            s_c: Output::default(),
+            d_b: Output::default(),
+            d_c: Output::default(),
+            area2: Output::default(),
+            roof: Output::default(),
+            point: Output::default(),
+            swap: Output::default(),
+            state: Register::new(SetupState::Idle),
+            round: Register::default(),
+            pa: Register::data(),
+            pb: Register::data(),
+            pc: Register::data(),
+            va: Register::data(),
+            vb: Register::data(),
+            vc: Register::data(),
+            len_ab: Register::data(),
+            len_bc: Register::data(),
+            len_ca: Register::data(),
+            dir_ab: Register::data(),
+            dir_bc: Register::data(),
+            dir_ca: Register::data(),
+            prime_ab: Register::data(),
+            prime_bc: Register::data(),
+            prime_ca: Register::data(),
+            odd: Register::data(),
+            decreasing: Register::data(),
+            is_roof: Register::data(),
+            is_point: Register::data(),
+            sb: Register::data(),
+            sc: Register::data(),
+            db: Register::data(),
+            dc: Register::data(),
+            area: Register::data(),
+            db_other: Register::data(),
+            dc_other: Register::data(),
+            product: Register::data(),
+            area_other: Register::data(),
+            multiplier: crate::primitives::Multiplier::default(),
+            edge_ab: EdgeMeasure::default(),
+            edge_bc: EdgeMeasure::default(),
+            edge_ca: EdgeMeasure::default(),
+            exchange: Wire::default(),
+            axis: Wire::default(),
+            side_axis: Wire::default(),
+            other_axis: Wire::default(),
+            magnitude: Wire::default(),
+            magnitude_other: Wire::default(),
+        }
+    }
+}
+
+impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: usize> Logic
+    for TriangleSetup<L, V, N, T, A>
+{
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca);
+        dff_setup!(self, clock, prime_ab, prime_bc, prime_ca, odd, decreasing, is_roof, is_point);
+        dff_setup!(self, clock, sb, sc, db, dc, area, db_other, dc_other, product, area_other);
+        clock!(self, clock, multiplier);
+        self.in_ready.next = self.state.q.val() == SetupState::Idle;
+        self.edge_start.next = self.state.q.val() == SetupState::Areas && self.round.q.val() == 0;
+        self.interior_start.next = self.state.q.val() == SetupState::Interior;
+        self.record_valid.next = self.state.q.val() == SetupState::Wait && !self.units_busy.val();
+        self.corner_a.next = self.va.q.val();
+        self.corner_b.next = self.vb.q.val();
+        self.corner_c.next = self.vc.q.val();
+        self.n_ab.next = self.len_ab.q.val();
+        self.n_ac.next = self.len_ca.q.val();
+        self.n_bc.next = self.len_bc.q.val();
+        self.a_hi_ab.next = self.decreasing.q.val();
+        self.a_hi_ac.next =
+            self.pa.q.val().get_bit(self.dir_ca.q.val().index()) > self.pc.q.val().get_bit(self.dir_ca.q.val().index());
+        self.b_hi_bc.next =
+            self.pb.q.val().get_bit(self.dir_bc.q.val().index()) > self.pc.q.val().get_bit(self.dir_bc.q.val().index());
+        self.s_b.next = self.sb.q.val();
+        self.s_c.next = self.sc.q.val();
+        self.d_b.next = self.db.q.val();
+        self.d_c.next = self.dc.q.val();
+        self.area2.next = self.area.q.val();
+        self.roof.next = self.is_roof.q.val();
+        self.point.next = self.is_point.q.val();
+        self.swap.next = self.odd.q.val();
+
+        self.edge_ab.from.next = self.pa.q.val();
+        self.edge_ab.to.next = self.pb.q.val();
+        self.edge_ab.third.next = self.pc.q.val();
+        self.edge_ab.axis.next = self.dir_ab.q.val();
+        self.edge_bc.from.next = self.pb.q.val();
+        self.edge_bc.to.next = self.pc.q.val();
+        self.edge_bc.third.next = self.pa.q.val();
+        self.edge_bc.axis.next = self.dir_bc.q.val();
+        self.edge_ca.from.next = self.pc.q.val();
+        self.edge_ca.to.next = self.pa.q.val();
+        self.edge_ca.third.next = self.pb.q.val();
+        self.edge_ca.axis.next = self.dir_ca.q.val();
+        self.axis.next = self.dir_ab.q.val();
+        // The other two axes, the lower one first: it wins ties.
+        if self.axis.val() == 0 {
+            self.side_axis.next = 1.into();
+            self.other_axis.next = 2.into();
+        } else if self.axis.val() == 1 {
+            self.side_axis.next = 0.into();
+            self.other_axis.next = 2.into();
+        } else {
+            self.side_axis.next = 0.into();
+            self.other_axis.next = 1.into();
+        }
+        if self.area.q.val() < 0 {
+            self.magnitude.next = -self.area.q.val();
+        } else {
+            self.magnitude.next = self.area.q.val();
+        }
+        if self.area_other.q.val() < 0 {
+            self.magnitude_other.next = -self.area_other.q.val();
+        } else {
+            self.magnitude_other.next = self.area_other.q.val();
+        }
+        // Products s_B d_C, d_B s_C of the first candidate, then of the other.
+        self.multiplier.a.next = self.sb.q.val();
+        self.multiplier.b.next = self.dc.q.val();
+        if self.round.q.val() == 2 {
+            self.multiplier.a.next = self.db.q.val();
+            self.multiplier.b.next = self.sc.q.val();
+        } else if self.round.q.val() == 3 {
+            self.multiplier.b.next = self.dc_other.q.val();
+        } else if self.round.q.val() == 4 {
+            self.multiplier.a.next = self.db_other.q.val();
+            self.multiplier.b.next = self.sc.q.val();
+        }
+
+        self.exchange.next = false;
+        match self.state.q.val() {
+            SetupState::Idle => {
+                if self.in_valid.val() {
+                    self.pa.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p0.val());
+                    self.pb.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p1.val());
+                    self.pc.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p2.val());
+                    self.va.d.next = self.in_v0.val();
+                    self.vb.d.next = self.in_v1.val();
+                    self.vc.d.next = self.in_v2.val();
+                    self.state.d.next = SetupState::Measure;
+                }
+            }
+            SetupState::Measure => {
+                self.len_ab.d.next = self.edge_ab.length.val();
+                self.len_bc.d.next = self.edge_bc.length.val();
+                self.len_ca.d.next = self.edge_ca.length.val();
+                self.dir_ab.d.next = self.edge_ab.direction.val();
+                self.dir_bc.d.next = self.edge_bc.direction.val();
+                self.dir_ca.d.next = self.edge_ca.direction.val();
+                self.state.d.next = SetupState::Primary;
+            }
+            SetupState::Primary => {
+                self.prime_ab.d.next = self.edge_ab.primary.val();
+                self.prime_bc.d.next = self.edge_bc.primary.val();
+                self.prime_ca.d.next = self.edge_ca.primary.val();
+                self.state.d.next = SetupState::Choose;
+            }
+            SetupState::Choose => {
+                self.odd.d.next = false;
+                self.decreasing.d.next = false;
+                self.is_roof.d.next = false;
+                self.is_point.d.next = self.len_ab.q.val() == 0 && self.len_bc.q.val() == 0 && self.len_ca.q.val() == 0;
+                self.state.d.next = SetupState::Orient;
+                self.round.d.next = 0.into();
+                if self.prime_ab.q.val()
+                    && (!self.prime_bc.q.val() || self.len_ab.q.val() >= self.len_bc.q.val())
+                    && (!self.prime_ca.q.val() || self.len_ab.q.val() >= self.len_ca.q.val())
+                {
+                    // AB is P0 P1.
+                } else if self.prime_bc.q.val()
+                    && (!self.prime_ca.q.val() || self.len_bc.q.val() >= self.len_ca.q.val())
+                {
+                    self.pa.d.next = self.pb.q.val();
+                    self.pb.d.next = self.pc.q.val();
+                    self.pc.d.next = self.pa.q.val();
+                    self.va.d.next = self.vb.q.val();
+                    self.vb.d.next = self.vc.q.val();
+                    self.vc.d.next = self.va.q.val();
+                    self.len_ab.d.next = self.len_bc.q.val();
+                    self.len_bc.d.next = self.len_ca.q.val();
+                    self.len_ca.d.next = self.len_ab.q.val();
+                    self.dir_ab.d.next = self.dir_bc.q.val();
+                    self.dir_bc.d.next = self.dir_ca.q.val();
+                    self.dir_ca.d.next = self.dir_ab.q.val();
+                } else if self.prime_ca.q.val() {
+                    self.pa.d.next = self.pc.q.val();
+                    self.pb.d.next = self.pa.q.val();
+                    self.pc.d.next = self.pb.q.val();
+                    self.va.d.next = self.vc.q.val();
+                    self.vb.d.next = self.va.q.val();
+                    self.vc.d.next = self.vb.q.val();
+                    self.len_ab.d.next = self.len_ca.q.val();
+                    self.len_bc.d.next = self.len_ab.q.val();
+                    self.len_ca.d.next = self.len_bc.q.val();
+                    self.dir_ab.d.next = self.dir_ca.q.val();
+                    self.dir_bc.d.next = self.dir_ab.q.val();
+                    self.dir_ca.d.next = self.dir_bc.q.val();
+                }
+            }
+            SetupState::Orient => {
+                if self.is_point.q.val() {
+                    // Nothing to divide: one triangle of the three corners as they came.
+                    self.state.d.next = SetupState::Wait;
+                } else {
+                    self.state.d.next = SetupState::Areas;
+                    if self.pa.q.val().get_bit(self.axis.val().index())
+                        > self.pb.q.val().get_bit(self.axis.val().index())
+                    {
+                        self.exchange.next = true;
+                    }
+                }
+            }
+            SetupState::Areas => {
+                self.round.d.next = self.round.q.val() + 1;
+                if self.round.q.val() == 0 {
+                    self.sb.d.next = self.pb.q.val().get_bit(self.axis.val().index())
+                        - self.pa.q.val().get_bit(self.axis.val().index());
+                    self.sc.d.next = self.pc.q.val().get_bit(self.axis.val().index())
+                        - self.pa.q.val().get_bit(self.axis.val().index());
+                    self.db.d.next = self.pb.q.val().get_bit(self.side_axis.val().index())
+                        - self.pa.q.val().get_bit(self.side_axis.val().index());
+                    self.dc.d.next = self.pc.q.val().get_bit(self.side_axis.val().index())
+                        - self.pa.q.val().get_bit(self.side_axis.val().index());
+                    self.db_other.d.next = self.pb.q.val().get_bit(self.other_axis.val().index())
+                        - self.pa.q.val().get_bit(self.other_axis.val().index());
+                    self.dc_other.d.next = self.pc.q.val().get_bit(self.other_axis.val().index())
+                        - self.pa.q.val().get_bit(self.other_axis.val().index());
+                } else if self.round.q.val() == 2 || self.round.q.val() == 4 {
+                    self.product.d.next = bit_cast_to::<S<A>>(self.multiplier.p.val());
+                } else if self.round.q.val() == 3 {
+                    self.area.d.next = self.product.q.val() - bit_cast_to::<S<A>>(self.multiplier.p.val());
+                } else if self.round.q.val() == 5 {
+                    self.area_other.d.next = self.product.q.val() - bit_cast_to::<S<A>>(self.multiplier.p.val());
+                    self.state.d.next = SetupState::Plane;
+                }
+            }
+            SetupState::Plane => {
+                self.state.d.next = SetupState::Case;
+                if self.magnitude_other.val() > self.magnitude.val() {
+                    self.area.d.next = self.magnitude_other.val();
+                    self.db.d.next = self.db_other.q.val();
+                    self.dc.d.next = self.dc_other.q.val();
+                    if self.area_other.q.val() < 0 {
+                        self.db.d.next = -self.db_other.q.val();
+                        self.dc.d.next = -self.dc_other.q.val();
+                    }
+                } else if self.area.q.val() < 0 {
+                    self.area.d.next = self.magnitude.val();
+                    self.db.d.next = -self.db.q.val();
+                    self.dc.d.next = -self.dc.q.val();
+                }
+            }
+            SetupState::Case => {
+                self.state.d.next = SetupState::Interior;
+                if self.dc.q.val() < 0 {
+                    // Decreasing: mirror s, exchange A and B, and measure from the new A.
+                    self.exchange.next = true;
+                    self.decreasing.d.next = true;
+                    self.sc.d.next = self.sb.q.val() - self.sc.q.val();
+                    self.db.d.next = -self.db.q.val();
+                    self.dc.d.next = self.dc.q.val() - self.db.q.val();
+                } else {
+                    self.is_roof.d.next = self.db.q.val() < self.dc.q.val();
+                }
+            }
+            SetupState::Interior => {
+                self.state.d.next = SetupState::Wait;
+            }
+            SetupState::Wait => {
+                if !self.units_busy.val() && self.record_ready.val() {
+                    self.state.d.next = SetupState::Idle;
+                }
+            }
+        }
+        if self.exchange.val() {
+            self.pa.d.next = self.pb.q.val();
+            self.pb.d.next = self.pa.q.val();
+            self.va.d.next = self.vb.q.val();
+            self.vb.d.next = self.va.q.val();
+            self.len_bc.d.next = self.len_ca.q.val();
+            self.len_ca.d.next = self.len_bc.q.val();
+            self.dir_bc.d.next = self.dir_ca.q.val();
+            self.dir_ca.d.next = self.dir_bc.q.val();
+            self.odd.d.next = !self.odd.q.val();
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("triangle_setup")
+    }
+}
