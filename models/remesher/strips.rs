@@ -59,17 +59,14 @@ pub(super) fn strips<const N: usize, O: Observer>(
             let left_ends = on_edge || left_row + 1 >= upper.walker.row();
             let stored = port.left_stored();
             if to_point {
-                if left_ends && !upper.before_c() {
+                // A vertex of AC before C cannot be next here: it takes an AC of two segments in a strip that is both
+                // first and last, and then AC or BC would be longer than AB and the primary edge instead.
+                if left_ends {
                     return fan(port, upper, closes);
                 }
-                if upper.before_c() {
-                    port.left_edge(&upper.walker);
-                    upper.advance();
-                } else {
-                    add(&mut left_cursor, &side_difference);
-                    left_row += 1;
-                    port.left_interior(&left_cursor, place(left_column, left_row));
-                }
+                add(&mut left_cursor, &side_difference);
+                left_row += 1;
+                port.left_interior(&left_cursor, place(left_column, left_row));
                 port.step(false);
                 continue;
             }

@@ -142,11 +142,6 @@ impl<const N: usize> Upper<N> {
             None => (self.walker.column() - first).min(columns - 1),
         }
     }
-    /// Still on AC of the poly-line, before C.
-    #[inline(always)]
-    pub(super) const fn before_c(&self) -> bool {
-        self.then.is_some() && !self.walker.at_end()
-    }
     /// Goes to the next vertex; C is a vertex of AC, so CB is entered behind it.
     #[inline(always)]
     pub(super) fn advance(&mut self) {
