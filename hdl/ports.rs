@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports of a block as words: what a test bench needs to drive any block without knowing its type.
 
-use crate::signal::{ClockReset, Input};
-use rust_hdl_core::prelude::Block;
+use crate::signal::{ClockReset, Input, Watched};
 
 /// Name and width of one port.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -21,7 +20,7 @@ impl PortShape {
 }
 
 /// A block whose ports can be written and read as words, port after port, each padded to whole words.
-pub trait Ports: Block {
+pub trait Ports: Watched {
     /// Clock and reset of the block.
     fn clock_mut(&mut self) -> &mut Input<ClockReset>;
     /// Input ports but the clock, in the order of the fields.
@@ -34,10 +33,12 @@ pub trait Ports: Block {
     fn read_outputs(&self, words: &mut [u64]);
 }
 
-/// Implements [`Ports`] for a block: its generics, its type, its inputs and its outputs, in the order of the fields.
+/// Implements [`Ports`] and [`Watched`] for a block: its generics, its type, its inputs and outputs in the order of the
+/// fields, and the sub-blocks that are no registers.
 #[macro_export]
 macro_rules! ports {
-    ([$($generic:tt)*] $block:ty { inputs: $($input:ident),*; outputs: $($output:ident),* }) => {
+    ([$($generic:tt)*] $block:ty { inputs: $($input:ident),*; outputs: $($output:ident),*; blocks: $($child:ident),* }) => {
+        $crate::watched! { [$($generic)*] $block: $($input),*; $($child),* }
         impl<$($generic)*> $crate::ports::Ports for $block {
             fn clock_mut(&mut self) -> &mut $crate::signal::Input<$crate::signal::ClockReset> {
                 &mut self.clock

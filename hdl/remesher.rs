@@ -68,12 +68,12 @@ pub struct Remesher<
     pub out_last: Output<Bit>,
     pub out_left_vertex: Output<Lanes<L, V>>,
     pub out_right_vertex: Output<Lanes<L, V>>,
-    pub triangle: TriangleSetup<L, V, N, T, A>,
-    pub edges: EdgeSetup<L, V, W, X, T>,
-    pub interior: InteriorSetup<L, V, W, T, A, P>,
-    pub sweep: Sweep<T>,
-    pub walkers: Walkers<L, V, W, T>,
-    pub commands: Commands<L, V, W, K>,
+    pub triangle: Gated<TriangleSetup<L, V, N, T, A>>,
+    pub edges: Gated<EdgeSetup<L, V, W, X, T>>,
+    pub interior: Gated<InteriorSetup<L, V, W, T, A, P>>,
+    pub sweep: Gated<Sweep<T>>,
+    pub walkers: Gated<Walkers<L, V, W, T>>,
+    pub commands: Gated<Commands<L, V, W, K>>,
 }
 
 impl<
@@ -109,12 +109,12 @@ impl<
             out_last: Output::default(),
             out_left_vertex: Output::default(),
             out_right_vertex: Output::default(),
-            triangle: TriangleSetup::default(),
-            edges: EdgeSetup::default(),
-            interior: InteriorSetup::default(),
-            sweep: Sweep::default(),
-            walkers: Walkers::default(),
-            commands: Commands::new(depth),
+            triangle: Gated::default(),
+            edges: Gated::default(),
+            interior: Gated::default(),
+            sweep: Gated::default(),
+            walkers: Gated::default(),
+            commands: Gated::new(Commands::new(depth)),
         }
     }
 }
@@ -238,6 +238,7 @@ ports! {
      const P: usize, const K: usize] Remesher<L, V, W, X, N, T, A, P, K> {
         inputs: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, out_ready;
         outputs: in_ready, out_valid, out_kind, out_left, out_right, out_swap, out_last, out_left_vertex,
-            out_right_vertex
+            out_right_vertex;
+        blocks: triangle, edges, interior, sweep, walkers, commands
     }
 }

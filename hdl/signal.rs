@@ -6,12 +6,14 @@
 //! back-end their sign and lanes through [`Synth::bits`](rust_hdl_core::synth::Synth::bits).
 
 mod cast;
+mod gated;
 mod integer;
 mod lanes;
 mod port;
 mod words;
 
 pub use cast::{BitCast, Scalar, bit_cast_to};
+pub use gated::{Gated, Watched};
 pub use integer::{S, U, WideS, WideU};
 pub use lanes::Lanes;
 pub use port::{ClockReset, Input, Output, Wire};

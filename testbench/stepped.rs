@@ -57,7 +57,7 @@ impl<B: Ports> Stepped<B> {
         self.block.clock_mut().next.clk = false;
         for _ in 0..SETTLE_LIMIT {
             self.block.update_all();
-            if !self.block.has_changed() {
+            if !self.block.inside_moves() {
                 return;
             }
         }

@@ -191,3 +191,5 @@ impl<const L: usize, const V: usize, const W: usize, const K: usize> Logic for C
         module_name("commands")
     }
 }
+
+watched! { [const L: usize, const V: usize, const W: usize, const K: usize] Commands<L, V, W, K>: in_valid, in_kind, in_left, in_right, in_keep, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready;  }

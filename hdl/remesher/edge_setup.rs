@@ -208,3 +208,5 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         module_name("edge_setup")
     }
 }
+
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider }

@@ -267,3 +267,5 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
         module_name("interior_setup")
     }
 }
+
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; multiplier, divider }

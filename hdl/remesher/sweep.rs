@@ -695,3 +695,5 @@ impl<const T: usize> Logic for Sweep<T> {
         module_name("sweep")
     }
 }
+
+watched! { [const T: usize] Sweep<T>: record_valid, record_n_ab, record_n_ac, record_n_bc, record_s_b, record_s_c, record_d_b, record_d_c, record_roof, record_point, record_swap, op_ready;  }

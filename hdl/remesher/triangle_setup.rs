@@ -446,3 +446,5 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         module_name("triangle_setup")
     }
 }
+
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca }

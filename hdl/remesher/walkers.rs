@@ -97,18 +97,12 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const T: usiz
     first_load: Wire<Bit>,
     second_load: Wire<Bit>,
     beat: Wire<Bit>,
-    record_a: Wire<Lanes<L, W>>,
-    exact_a: Wire<Lanes<L, W>>,
-    exact_b: Wire<Lanes<L, W>>,
-    exact_c: Wire<Lanes<L, W>>,
     primary_next: Wire<Lanes<L, W>>,
-    side_change: Wire<Lanes<L, W>>,
+    base_shifted: Wire<Lanes<L, W>>,
     base_next: Wire<Lanes<L, W>>,
-    edge_next: Wire<Lanes<L, W>>,
-    edge_vertex: Wire<Lanes<L, W>>,
-    edge_next_vertex: Wire<Lanes<L, W>>,
-    left_next: Wire<Lanes<L, W>>,
+    edge_step: Wire<Lanes<L, W>>,
     right_next: Wire<Lanes<L, W>>,
+    right_edge: Wire<U<2>>,
     guard: Constant<U<6>>,
 }
 
@@ -192,18 +186,12 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Default for
             first_load: Wire::default(),
             second_load: Wire::default(),
             beat: Wire::default(),
-            record_a: Wire::default(),
-            exact_a: Wire::default(),
-            exact_b: Wire::default(),
-            exact_c: Wire::default(),
             primary_next: Wire::default(),
-            side_change: Wire::default(),
+            base_shifted: Wire::default(),
             base_next: Wire::default(),
-            edge_next: Wire::default(),
-            edge_vertex: Wire::default(),
-            edge_next_vertex: Wire::default(),
-            left_next: Wire::default(),
+            edge_step: Wire::default(),
             right_next: Wire::default(),
+            right_edge: Wire::default(),
             guard: Constant::new(U::new((W - V - 1) as i64)),
         }
     }
@@ -275,74 +263,68 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for W
         self.origin_b.enable.next = self.first_load.val();
         self.origin_b.d.next = self.base_b.val();
 
-        // Corners with g fraction bits, and the walkers' starts: V * 2^g, less the remainder at the hi end.
-        self.record_a.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
-        self.exact_a.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
-        self.exact_b.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-        self.exact_c.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
-
         if self.go.val() {
             self.sent_valid.d.next = self.beat.val();
         }
-        // Upper edge: along AC from A, along BC from B, or along BC from C.
-        self.edge_next.next = self.edge_walker.q.val();
-        self.edge_vertex.next = self.edge_walker.q.val();
-        self.edge_next_vertex.next = self.edge_walker.q.val();
         self.primary_next.next = self.primary_walker.q.val();
-        self.side_change.next = self.d_side.q.val();
+        self.base_shifted.next = self.base_walker.q.val();
         self.base_next.next = self.base_walker.q.val();
-        self.left_next.next = self.left_walker.q.val() + self.d_side.q.val();
-        self.right_next.next = self.right_walker.q.val() + self.d_side.q.val();
-        if self.op_column_edge.val() {
-            if self.op_second.val() {
-                self.right_next.next = self.right_walker.q.val() + self.d_ac.q.val();
-                if self.hi_ac.q.val() {
-                    self.right_next.next = self.right_walker.q.val() - self.d_ac.q.val();
-                }
-            } else {
-                self.right_next.next = self.right_walker.q.val() + self.d_bc.q.val();
-                if self.hi_bc.q.val() {
-                    self.right_next.next = self.right_walker.q.val() - self.d_bc.q.val();
-                }
+        self.edge_step.next = self.edge_walker.q.val();
+        self.right_next.next = self.right_walker.q.val();
+        self.right_edge.next = 0.into();
+        // Corners have g fraction bits; a walker starts at V * 2^g, less the remainder at the hi end.
+        if self.first_load.val() {
+            self.base_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
+            self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
+            self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
+            if self.a_hi_ab.val() {
+                self.primary_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val())
+                    - bit_cast_to::<Lanes<L, W>>(self.rem_ab.val());
             }
-        }
-        if self.op_advance.val() {
-            if !self.op_on_bc.val() {
-                self.edge_next.next = self.edge_walker.q.val() + self.d_ac.q.val();
-                if self.hi_ac.q.val() {
-                    self.edge_next.next = self.edge_walker.q.val() - self.d_ac.q.val();
-                }
-            } else {
-                // C is the hi end of BC where B is not.
-                self.edge_next.next = self.edge_walker.q.val() + self.d_bc.q.val();
-                if self.hi_bc.q.val() == self.op_second.val() {
-                    self.edge_next.next = self.edge_walker.q.val() - self.d_bc.q.val();
-                }
+            if self.a_hi_ac.val() {
+                self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val())
+                    - bit_cast_to::<Lanes<L, W>>(self.rem_ac.val());
             }
-        }
-        if self.op_edge.val() == 1 {
-            self.edge_vertex.next = self.exact_c.val();
-        } else if self.op_edge.val() == 2 {
-            self.edge_vertex.next = self.exact_b.val();
-        }
-        if self.op_advance.val() {
-            self.edge_next_vertex.next = self.edge_next.val();
-            if self.op_edge_next.val() == 1 {
-                self.edge_next_vertex.next = self.exact_c.val();
-            } else if self.op_edge_next.val() == 2 {
-                self.edge_next_vertex.next = self.exact_b.val();
+        } else if self.second_load.val() {
+            self.base_walker.d.next = self.origin_b.q.val();
+            self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
+            self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
+            if !self.hi_ab.q.val() {
+                self.primary_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val())
+                    - bit_cast_to::<Lanes<L, W>>(self.r_ab.q.val());
             }
-        } else {
-            self.edge_next_vertex.next = self.edge_vertex.val();
-        }
-
-        if self.beat.val() {
+            if self.hi_bc.q.val() {
+                self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val())
+                    - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
+            }
+        } else if self.beat.val() {
             self.sent_kind.d.next = bit_cast_to::<U<2>>(self.op_code.val());
             self.sent_left.d.next = self.op_left.val();
             self.sent_right.d.next = self.op_right.val();
             self.sent_keep.d.next = self.op_keep.val();
             self.sent_swap.d.next = self.op_swap.val();
             self.sent_last.d.next = self.op_last.val();
+            // Upper edge: along AC from A, along BC from B, or along BC from C, which is its hi end where B is not.
+            if self.op_turn.val() {
+                self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
+                if !self.hi_bc.q.val() {
+                    self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val())
+                        - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
+                }
+            } else if self.op_advance.val() {
+                if self.op_on_bc.val() {
+                    self.edge_step.next = self.edge_walker.q.val() + self.d_bc.q.val();
+                    if self.hi_bc.q.val() == self.op_second.val() {
+                        self.edge_step.next = self.edge_walker.q.val() - self.d_bc.q.val();
+                    }
+                } else {
+                    self.edge_step.next = self.edge_walker.q.val() + self.d_ac.q.val();
+                    if self.hi_ac.q.val() {
+                        self.edge_step.next = self.edge_walker.q.val() - self.d_ac.q.val();
+                    }
+                }
+                self.edge_walker.d.next = self.edge_step.val();
+            }
             if self.op_code.val() == 1 || self.op_code.val() == 2 {
                 // First rung: the primary and base walkers go on by one column.
                 self.primary_next.next = self.primary_walker.q.val() + self.d_ab.q.val();
@@ -350,15 +332,15 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for W
                     self.primary_next.next = self.primary_walker.q.val() - self.d_ab.q.val();
                 }
                 if self.op_base.val() == 0 {
-                    self.side_change.next = self.base_walker.q.val();
+                    self.base_shifted.next = self.base_walker.q.val();
                 } else if self.op_base.val() < 0 {
-                    self.side_change.next = self.base_walker.q.val() - self.d_side.q.val();
+                    self.base_shifted.next = self.base_walker.q.val() - self.d_side.q.val();
                 } else {
-                    self.side_change.next = self.base_walker.q.val() + self.d_side.q.val();
+                    self.base_shifted.next = self.base_walker.q.val() + self.d_side.q.val();
                 }
-                self.base_next.next = self.side_change.val() + self.d_sweep.q.val();
+                self.base_next.next = self.base_shifted.val() + self.d_sweep.q.val();
                 if self.op_second.val() {
-                    self.base_next.next = self.side_change.val() - self.d_sweep.q.val();
+                    self.base_next.next = self.base_shifted.val() - self.d_sweep.q.val();
                 }
                 self.primary_walker.d.next = self.primary_next.val();
                 self.base_walker.d.next = self.base_next.val();
@@ -366,73 +348,76 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for W
                 self.right_walker.d.next = self.base_next.val();
                 if self.op_column_edge.val() {
                     if self.op_second.val() {
-                        self.right_walker.d.next = self.exact_a.val();
+                        self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
                         if self.hi_ac.q.val() {
-                            self.right_walker.d.next =
-                                self.exact_a.val() - bit_cast_to::<Lanes<L, W>>(self.r_ac.q.val());
+                            self.right_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.va.q.val())
+                                << self.guard.val())
+                                - bit_cast_to::<Lanes<L, W>>(self.r_ac.q.val());
                         }
                     } else {
-                        self.right_walker.d.next = self.exact_b.val();
+                        self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
                         if self.hi_bc.q.val() {
-                            self.right_walker.d.next =
-                                self.exact_b.val() - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
+                            self.right_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val())
+                                << self.guard.val())
+                                - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
                         }
                     }
                 }
-                self.sent_left_vertex.d.next = self.exact_a.val();
                 self.sent_right_vertex.d.next = self.primary_next.val();
-                if self.op_at_end.val() {
-                    self.sent_right_vertex.d.next = self.exact_b.val();
-                }
                 if self.op_second.val() {
-                    self.sent_left_vertex.d.next = self.exact_b.val();
+                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
                     if self.op_at_end.val() {
-                        self.sent_right_vertex.d.next = self.exact_a.val();
+                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
+                    }
+                } else {
+                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
+                    if self.op_at_end.val() {
+                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
                     }
                 }
             } else {
                 if self.op_left.val() == 1 {
-                    self.left_walker.d.next = self.left_next.val();
-                    self.sent_left_vertex.d.next = self.left_next.val();
+                    self.sent_left_vertex.d.next = self.left_walker.q.val() + self.d_side.q.val();
+                    self.left_walker.d.next = self.left_walker.q.val() + self.d_side.q.val();
+                } else if self.op_edge.val() == 0 {
+                    self.sent_left_vertex.d.next = self.edge_walker.q.val();
+                } else if self.op_edge.val() == 1 {
+                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
                 } else {
-                    self.sent_left_vertex.d.next = self.edge_vertex.val();
+                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
                 }
-                if self.op_right.val() == 3 {
-                    self.sent_right_vertex.d.next = self.edge_next_vertex.val();
-                } else if self.op_right.val() != 0 {
+                if self.op_right.val() == 1 {
+                    self.right_next.next = self.right_walker.q.val() + self.d_side.q.val();
                     self.right_walker.d.next = self.right_next.val();
                     self.sent_right_vertex.d.next = self.right_next.val();
+                } else if self.op_right.val() == 2 {
+                    if self.op_second.val() {
+                        self.right_next.next = self.right_walker.q.val() + self.d_ac.q.val();
+                        if self.hi_ac.q.val() {
+                            self.right_next.next = self.right_walker.q.val() - self.d_ac.q.val();
+                        }
+                    } else {
+                        self.right_next.next = self.right_walker.q.val() + self.d_bc.q.val();
+                        if self.hi_bc.q.val() {
+                            self.right_next.next = self.right_walker.q.val() - self.d_bc.q.val();
+                        }
+                    }
+                    self.right_walker.d.next = self.right_next.val();
+                    self.sent_right_vertex.d.next = self.right_next.val();
+                } else if self.op_right.val() == 3 {
+                    // The next upper-edge vertex: the one behind it, if the left has just taken the first.
+                    self.right_edge.next = self.op_edge.val();
+                    if self.op_advance.val() {
+                        self.right_edge.next = self.op_edge_next.val();
+                    }
+                    if self.right_edge.val() == 0 {
+                        self.sent_right_vertex.d.next = self.edge_step.val();
+                    } else if self.right_edge.val() == 1 {
+                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
+                    } else {
+                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
+                    }
                 }
-            }
-            if self.op_turn.val() {
-                self.edge_walker.d.next = self.exact_c.val();
-                if !self.hi_bc.q.val() {
-                    self.edge_walker.d.next = self.exact_c.val() - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
-                }
-            } else if self.op_advance.val() {
-                self.edge_walker.d.next = self.edge_next.val();
-            }
-        }
-        if self.first_load.val() {
-            self.base_walker.d.next = self.record_a.val();
-            self.primary_walker.d.next = self.record_a.val();
-            self.edge_walker.d.next = self.record_a.val();
-            if self.a_hi_ab.val() {
-                self.primary_walker.d.next = self.record_a.val() - bit_cast_to::<Lanes<L, W>>(self.rem_ab.val());
-            }
-            if self.a_hi_ac.val() {
-                self.edge_walker.d.next = self.record_a.val() - bit_cast_to::<Lanes<L, W>>(self.rem_ac.val());
-            }
-        }
-        if self.second_load.val() {
-            self.base_walker.d.next = self.origin_b.q.val();
-            self.primary_walker.d.next = self.exact_b.val();
-            self.edge_walker.d.next = self.exact_b.val();
-            if !self.hi_ab.q.val() {
-                self.primary_walker.d.next = self.exact_b.val() - bit_cast_to::<Lanes<L, W>>(self.r_ab.q.val());
-            }
-            if self.hi_bc.q.val() {
-                self.edge_walker.d.next = self.exact_b.val() - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
             }
         }
     }
@@ -441,3 +426,5 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for W
         module_name("walkers")
     }
 }
+
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize] Walkers<L, V, W, T>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, rem_ab, rem_ac, rem_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_base, op_column_edge, op_edge, op_edge_next, op_advance, op_turn, op_keep, op_swap, op_last, out_ready;  }

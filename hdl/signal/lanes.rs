@@ -10,7 +10,7 @@ use super::{LANES_SHIFT, S, SIGNED_FLAG, U};
 ///
 /// Operators work lane by lane and wrap modulo 2^W. `get_bit(k)` reads lane `k` and `replace_bit(k, v)` writes it: the
 /// kernel macro knows these method names only.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Eq)]
 pub struct Lanes<const L: usize, const W: usize>([i64; L]);
 
 impl<const L: usize, const W: usize> Lanes<L, W> {
@@ -42,6 +42,14 @@ impl<const L: usize, const W: usize> Lanes<L, W> {
             out[k] = S::<W>::new(f(self.0[k], other.0[k])).get();
         }
         Self(out)
+    }
+}
+
+impl<const L: usize, const W: usize> PartialEq for Lanes<L, W> {
+    /// Without an early exit, so that it compiles to a few vector instructions instead of a call.
+    #[inline(always)]
+    fn eq(&self, other: &Self) -> bool {
+        self.0.iter().zip(&other.0).fold(0, |difference, (a, b)| difference | (a ^ b)) == 0
     }
 }
 

@@ -40,7 +40,7 @@ macro_rules! port {
         pub struct $name<T: Synth> {
             /// The value written last; a kernel writes `.next` and reads `.val()`.
             pub next: T,
-            $($shown: T,)?
+            $(pub(super) $shown: T,)?
             id: usize,
             changed: bool,
             connected: bool,
@@ -98,7 +98,7 @@ macro_rules! port {
         }
     };
 }
-port!(Input, AtomKind::InputParameter, "An input port.");
+port!(Input, AtomKind::InputParameter, "An input port.", seen);
 port!(Output, AtomKind::OutputParameter, "An output port.", shown);
 port!(Wire, AtomKind::LocalSignal, "A signal inside a block: written first, read afterwards, in the same kernel.");
 
