@@ -7,7 +7,9 @@ pub mod ports;
 pub mod primitives;
 pub mod remesher;
 pub mod signal;
+pub mod strip_unit;
 pub mod verilog;
+pub mod vertex_adder;
 
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
 pub mod prelude {

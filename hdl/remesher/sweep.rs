@@ -161,6 +161,7 @@ pub struct Sweep<const T: usize> {
     edge_run: Wire<S<T>>,
     row_sum: Wire<S<T>>,
     column_sum: Wire<S<T>>,
+    index_behind: Wire<S<T>>,
     index_next: Wire<S<T>>,
     row_next: Wire<S<T>>,
     row_error_next: Wire<S<T>>,
@@ -181,6 +182,8 @@ pub struct Sweep<const T: usize> {
     right_free_next: Wire<Bit>,
     takes: Wire<Bit>,
     left: Wire<U<2>>,
+    /// The code of a right move inside the column.
+    free_move: Wire<U<2>>,
     right: Wire<U<2>>,
     advance: Wire<Bit>,
     strip_ends: Wire<Bit>,
@@ -278,6 +281,7 @@ impl<const T: usize> Default for Sweep<T> {
             edge_run: Wire::default(),
             row_sum: Wire::default(),
             column_sum: Wire::default(),
+            index_behind: Wire::default(),
             index_next: Wire::default(),
             row_next: Wire::default(),
             row_error_next: Wire::default(),
@@ -297,6 +301,7 @@ impl<const T: usize> Default for Sweep<T> {
             right_free_next: Wire::default(),
             takes: Wire::default(),
             left: Wire::default(),
+            free_move: Wire::default(),
             right: Wire::default(),
             advance: Wire::default(),
             strip_ends: Wire::default(),
@@ -398,7 +403,8 @@ impl<const T: usize> Logic for Sweep<T> {
                 self.edge_slope.next = self.d_c.q.val() - self.d_b.q.val();
             }
         }
-        self.index_next.next = self.edge_index.q.val() + 1;
+        self.index_behind.next = self.edge_index.q.val() + 1;
+        self.index_next.next = self.index_behind.val();
         self.row_sum.next = self.edge_row_error.q.val() + (self.edge_slope.val() << 1);
         self.row_next.next = self.edge_row.q.val();
         self.row_error_next.next = self.row_sum.val();
@@ -417,7 +423,7 @@ impl<const T: usize> Logic for Sweep<T> {
             self.column_error_next.next = self.column_sum.val() - (self.edge_length.val() << 1);
         }
         // C on the way from AC to CB is vertex 0 of CB.
-        self.turns.next = self.pointed.q.val() && !self.on_bc.q.val() && self.index_next.val() >= self.n_ac.q.val();
+        self.turns.next = self.pointed.q.val() && !self.on_bc.q.val() && self.index_behind.val() >= self.n_ac.q.val();
         if self.turns.val() {
             self.index_next.next = 0.into();
             self.row_next.next = self.d_c.q.val();
@@ -470,6 +476,10 @@ impl<const T: usize> Logic for Sweep<T> {
         self.pointed_strip.next = self.pointed.q.val() && self.last_column.val();
 
         // The move of the side walk.
+        self.free_move.next = 1.into();
+        if self.column_edge.q.val() {
+            self.free_move.next = 2.into();
+        }
         self.left.next = 0.into();
         self.right.next = 0.into();
         self.advance.next = false;
@@ -485,19 +495,19 @@ impl<const T: usize> Logic for Sweep<T> {
                 }
             } else if self.complete.val() {
                 if self.right_free.val() {
-                    self.right.next = 1.into();
+                    self.right.next = self.free_move.val();
                 } else {
                     self.right.next = 3.into();
                     self.strip_ends.next = true;
                 }
             } else if self.row_left.q.val() > self.row_right.q.val() && self.right_free.val() {
-                self.right.next = 1.into();
+                self.right.next = self.free_move.val();
             } else if self.takes.val() {
                 self.left.next = 2.into();
                 self.advance.next = true;
                 if self.row_left.q.val() == self.row_right.q.val() {
                     if self.right_free_next.val() {
-                        self.right.next = 1.into();
+                        self.right.next = self.free_move.val();
                     } else if self.complete_next.val() {
                         self.right.next = 3.into();
                         self.strip_ends.next = true;
@@ -506,11 +516,8 @@ impl<const T: usize> Logic for Sweep<T> {
             } else {
                 self.left.next = 1.into();
                 if self.row_left.q.val() == self.row_right.q.val() && self.right_free.val() {
-                    self.right.next = 1.into();
+                    self.right.next = self.free_move.val();
                 }
-            }
-            if self.column_edge.q.val() && self.right.val() == 1 {
-                self.right.next = 2.into();
             }
         } else if self.state.q.val() == SweepState::Fan {
             self.left.next = 2.into();

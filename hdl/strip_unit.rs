@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Decodes the step port into triangles: four vertex registers and the column memory, one step a cycle.
+//!
+//! ```text
+//! Start: left = LD; right = start = RD; the column memory is emptied      Init: left = start; right = start = RD
+//! Fan:   right = left; left = LD or edge
+//! Step:  L' = left | LD | oldest of the column memory | edge              R' = right | RD (and store, or edge = RD)
+//!        triangles (L, R, L') if L moved, (R, R', L') if R moved
+//! ```
+//! (Gumhold & Huettner 1999, section 3.4; the column memory is ours: an interior vertex is displaced once, not twice.)
+//!
+//! | port         | format       | range |   Latency 1, interval 1 (2 for a recall right behind the store it recalls)
+//! | in_*         | stream       | the step port | Golden: models::strip_unit::StripUnit   Error 0
+//! | out_first, out_second | Bit | triangle (left, right, next_left), triangle (right, next_right, next_left) |
+//! | out_swap     | Bit          | read a triangle (a, b, c) as (a, c, b) |
+//! | out_*left, out_*right | L x signed V | |
+//! | error        | Bit          | sticky: a recall found the column memory empty, or a store found it full |
+//!
+//! A beat that closes no triangle and is not the last of its base triangle sends nothing. A triangle with two equal
+//! vertices is dropped. Vertices are equal when they are the same sending, not when their data are: four flags and the
+//! memory slot of the right vertex tell, so no vertex carries a number.
+
+mod column_memory;
+
+pub use column_memory::ColumnMemory;
+
+use crate::prelude::*;
+
+/// Strip unit for vertices of `L` x `V` bits; `K` bits count the column memory.
+#[derive(Clone, Debug, LogicBlock)]
+#[allow(missing_docs)]
+pub struct StripUnit<const L: usize, const V: usize, const K: usize> {
+    pub clock: Input<ClockReset>,
+    pub in_valid: Input<Bit>,
+    pub in_ready: Output<Bit>,
+    pub in_kind: Input<U<2>>,
+    pub in_left: Input<U<2>>,
+    pub in_right: Input<U<2>>,
+    pub in_swap: Input<Bit>,
+    pub in_last: Input<Bit>,
+    pub in_left_vertex: Input<Lanes<L, V>>,
+    pub in_right_vertex: Input<Lanes<L, V>>,
+    pub out_valid: Output<Bit>,
+    pub out_ready: Input<Bit>,
+    pub out_first: Output<Bit>,
+    pub out_second: Output<Bit>,
+    pub out_swap: Output<Bit>,
+    pub out_last: Output<Bit>,
+    pub out_left: Output<Lanes<L, V>>,
+    pub out_right: Output<Lanes<L, V>>,
+    pub out_next_left: Output<Lanes<L, V>>,
+    pub out_next_right: Output<Lanes<L, V>>,
+    pub error: Output<Bit>,
+    left: Register<Lanes<L, V>>,
+    right: Register<Lanes<L, V>>,
+    start: Register<Lanes<L, V>>,
+    edge_held: Register<Lanes<L, V>>,
+    swap: Register<Bit>,
+    /// Which registers hold the same vertex. All do after reset.
+    left_is_right: Register<Bit>,
+    left_is_edge: Register<Bit>,
+    right_is_edge: Register<Bit>,
+    start_is_edge: Register<Bit>,
+    /// The right vertex stands in the column memory, in this slot.
+    right_stored: Register<Bit>,
+    right_slot: Register<U<K>>,
+    failed: Register<Bit>,
+    sent_valid: Register<Bit>,
+    sent_first: Register<Bit>,
+    sent_second: Register<Bit>,
+    sent_swap: Register<Bit>,
+    sent_last: Register<Bit>,
+    sent_left: Register<Lanes<L, V>>,
+    sent_right: Register<Lanes<L, V>>,
+    sent_next_left: Register<Lanes<L, V>>,
+    sent_next_right: Register<Lanes<L, V>>,
+    column: ColumnMemory<L, V, K>,
+    is_step: Wire<Bit>,
+    recalls: Wire<Bit>,
+    stores: Wire<Bit>,
+    waits: Wire<Bit>,
+    go: Wire<Bit>,
+    beat: Wire<Bit>,
+    left_moves: Wire<Bit>,
+    right_moves: Wire<Bit>,
+    next_is_right: Wire<Bit>,
+    next_is_left: Wire<Bit>,
+    next_left: Wire<Lanes<L, V>>,
+    next_right: Wire<Lanes<L, V>>,
+    first: Wire<Bit>,
+    second: Wire<Bit>,
+}
+
+impl<const L: usize, const V: usize, const K: usize> StripUnit<L, V, K> {
+    /// Cycles from a beat to its triangles.
+    pub const LATENCY: usize = 1;
+    /// A strip unit whose column memory holds `depth` vertices, `1 <= depth < 2^K`.
+    pub fn new(depth: usize) -> Self {
+        Self {
+            clock: Input::default(),
+            in_valid: Input::default(),
+            in_ready: Output::default(),
+            in_kind: Input::default(),
+            in_left: Input::default(),
+            in_right: Input::default(),
+            in_swap: Input::default(),
+            in_last: Input::default(),
+            in_left_vertex: Input::default(),
+            in_right_vertex: Input::default(),
+            out_valid: Output::default(),
+            out_ready: Input::default(),
+            out_first: Output::default(),
+            out_second: Output::default(),
+            out_swap: Output::default(),
+            out_last: Output::default(),
+            out_left: Output::default(),
+            out_right: Output::default(),
+            out_next_left: Output::default(),
+            out_next_right: Output::default(),
+            error: Output::default(),
+            left: Register::default(),
+            right: Register::default(),
+            start: Register::default(),
+            edge_held: Register::default(),
+            swap: Register::default(),
+            left_is_right: Register::new(true),
+            left_is_edge: Register::new(true),
+            right_is_edge: Register::new(true),
+            start_is_edge: Register::new(true),
+            right_stored: Register::default(),
+            right_slot: Register::data(),
+            failed: Register::default(),
+            sent_valid: Register::default(),
+            sent_first: Register::data(),
+            sent_second: Register::data(),
+            sent_swap: Register::data(),
+            sent_last: Register::data(),
+            sent_left: Register::data(),
+            sent_right: Register::data(),
+            sent_next_left: Register::data(),
+            sent_next_right: Register::data(),
+            column: ColumnMemory::new(depth),
+            is_step: Wire::default(),
+            recalls: Wire::default(),
+            stores: Wire::default(),
+            waits: Wire::default(),
+            go: Wire::default(),
+            beat: Wire::default(),
+            left_moves: Wire::default(),
+            right_moves: Wire::default(),
+            next_is_right: Wire::default(),
+            next_is_left: Wire::default(),
+            next_left: Wire::default(),
+            next_right: Wire::default(),
+            first: Wire::default(),
+            second: Wire::default(),
+        }
+    }
+}
+
+impl<const L: usize, const V: usize, const K: usize> Logic for StripUnit<L, V, K> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, left, right, start, edge_held, swap, left_is_right, left_is_edge, right_is_edge);
+        dff_setup!(
+            self,
+            clock,
+            start_is_edge,
+            right_stored,
+            right_slot,
+            failed,
+            sent_valid,
+            sent_first,
+            sent_second,
+            sent_swap
+        );
+        dff_setup!(self, clock, sent_last, sent_left, sent_right, sent_next_left, sent_next_right);
+        clock!(self, clock, column);
+        self.out_valid.next = self.sent_valid.q.val();
+        self.out_first.next = self.sent_first.q.val();
+        self.out_second.next = self.sent_second.q.val();
+        self.out_swap.next = self.sent_swap.q.val();
+        self.out_last.next = self.sent_last.q.val();
+        self.out_left.next = self.sent_left.q.val();
+        self.out_right.next = self.sent_right.q.val();
+        self.out_next_left.next = self.sent_next_left.q.val();
+        self.out_next_right.next = self.sent_next_right.q.val();
+        self.error.next = self.failed.q.val();
+
+        // Kinds: 0 step, 1 start, 2 init, 3 fan. Left: 0 ref, 1 set, 2 recall, 3 edge. Right: 2 store, 3 edge.
+        self.is_step.next = self.in_kind.val() == 0;
+        self.recalls.next = self.is_step.val() && self.in_left.val() == 2 && !self.column.empty.val();
+        self.stores.next = self.is_step.val() && self.in_right.val() == 2 && !self.column.full.val();
+        self.waits.next = self.recalls.val() && !self.column.head_valid.val();
+        self.go.next = (!self.sent_valid.q.val() || self.out_ready.val()) && !self.waits.val();
+        self.in_ready.next = self.go.val();
+        self.beat.next = self.go.val() && self.in_valid.val();
+        self.column.clear.next = self.beat.val() && self.in_kind.val() == 1;
+        self.column.push.next = self.beat.val() && self.stores.val();
+        self.column.push_data.next = self.in_right_vertex.val();
+        self.column.pop.next = self.beat.val() && self.recalls.val();
+
+        self.left_moves.next =
+            self.is_step.val() && (self.in_left.val() == 1 || self.in_left.val() == 3 || self.recalls.val());
+        self.right_moves.next = self.is_step.val() && self.in_right.val() != 0;
+        self.next_left.next = self.in_left_vertex.val();
+        if self.in_kind.val() == 2 {
+            self.next_left.next = self.start.q.val();
+        } else if self.in_kind.val() != 1 {
+            if self.in_left.val() == 3 {
+                self.next_left.next = self.edge_held.q.val();
+            } else if self.recalls.val() {
+                self.next_left.next = self.column.head.val();
+            } else if self.is_step.val() && self.in_left.val() != 1 {
+                self.next_left.next = self.left.q.val();
+            }
+        }
+        self.next_right.next = self.in_right_vertex.val();
+        if self.in_kind.val() == 3 {
+            self.next_right.next = self.left.q.val();
+        } else if self.is_step.val() && self.in_right.val() == 0 {
+            self.next_right.next = self.right.q.val();
+        }
+        // Is L' the vertex R, or L?
+        self.next_is_right.next = false;
+        self.next_is_left.next = false;
+        if !self.left_moves.val() {
+            self.next_is_right.next = self.left_is_right.q.val();
+            self.next_is_left.next = true;
+        } else if self.in_left.val() == 3 {
+            self.next_is_right.next = self.right_is_edge.q.val();
+            self.next_is_left.next = self.left_is_edge.q.val();
+        } else if self.recalls.val() {
+            self.next_is_right.next =
+                self.right_stored.q.val() && self.right_slot.q.val() == self.column.head_slot.val();
+        }
+        self.first.next = self.left_moves.val()
+            && !self.left_is_right.q.val()
+            && !self.next_is_right.val()
+            && !self.next_is_left.val();
+        self.second.next = self.right_moves.val() && !self.next_is_right.val();
+
+        if self.go.val() {
+            self.sent_valid.d.next =
+                self.in_valid.val() && (self.first.val() || self.second.val() || self.in_last.val());
+        } else if self.out_ready.val() {
+            self.sent_valid.d.next = false;
+        }
+        if self.beat.val() {
+            self.sent_first.d.next = self.first.val();
+            self.sent_second.d.next = self.second.val();
+            self.sent_swap.d.next = self.swap.q.val();
+            self.sent_last.d.next = self.in_last.val();
+            self.sent_left.d.next = self.left.q.val();
+            self.sent_right.d.next = self.right.q.val();
+            self.sent_next_left.d.next = self.next_left.val();
+            self.sent_next_right.d.next = self.next_right.val();
+            self.left.d.next = self.next_left.val();
+            self.right.d.next = self.next_right.val();
+            self.right_stored.d.next = self.stores.val();
+            self.right_slot.d.next = self.column.tail_slot.val();
+            self.left_is_right.d.next = false;
+            self.left_is_edge.d.next = false;
+            self.right_is_edge.d.next = false;
+            if self.is_step.val() {
+                self.left_is_edge.d.next =
+                    self.in_left.val() == 3 || (!self.left_moves.val() && self.left_is_edge.q.val());
+                if self.in_right.val() == 0 {
+                    self.left_is_right.d.next = self.next_is_right.val();
+                    self.right_is_edge.d.next = self.right_is_edge.q.val();
+                    self.right_stored.d.next = self.right_stored.q.val();
+                    self.right_slot.d.next = self.right_slot.q.val();
+                } else if self.in_right.val() == 3 {
+                    self.edge_held.d.next = self.in_right_vertex.val();
+                    self.left_is_edge.d.next = false;
+                    self.right_is_edge.d.next = true;
+                    self.start_is_edge.d.next = false;
+                }
+                if (self.in_left.val() == 2 && !self.recalls.val()) || (self.in_right.val() == 2 && !self.stores.val())
+                {
+                    self.failed.d.next = true;
+                }
+            } else if self.in_kind.val() == 3 {
+                self.left_is_edge.d.next = self.in_left.val() == 3;
+                self.right_is_edge.d.next = self.left_is_edge.q.val();
+                self.left_is_right.d.next = self.in_left.val() == 3 && self.left_is_edge.q.val();
+            } else {
+                self.start.d.next = self.in_right_vertex.val();
+                self.start_is_edge.d.next = false;
+                if self.in_kind.val() == 1 {
+                    self.swap.d.next = self.in_swap.val();
+                    self.sent_swap.d.next = self.in_swap.val();
+                } else {
+                    self.left_is_edge.d.next = self.start_is_edge.q.val();
+                }
+            }
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("strip_unit")
+    }
+}
+
+ports! {
+    [const L: usize, const V: usize, const K: usize] StripUnit<L, V, K> {
+        inputs: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready;
+        outputs: in_ready, out_valid, out_first, out_second, out_swap, out_last, out_left, out_right, out_next_left,
+            out_next_right, error;
+        blocks: column
+    }
+}
