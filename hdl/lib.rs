@@ -10,6 +10,7 @@ pub mod signal;
 pub mod strip_unit;
 pub mod verilog;
 pub mod vertex_adder;
+pub mod widths;
 
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
 pub mod prelude {

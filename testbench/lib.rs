@@ -1,4 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Drivers, scoreboards and co-simulation that bind the blocks to their golden models.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`binding`] | what a block brings: device, golden model, stimulus; the list of all blocks |
+//! | [`stepped`], [`device`] | a block under a clock that is stepped by hand; the same with its type hidden |
+//! | [`scoreboard`] | idle cycles, backpressure, comparison beat by beat |
+//! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
+//! | `<block>` | the binding of that block |
+
+pub mod binding;
 pub mod cosim;
+pub mod device;
+pub mod probe;
+pub mod remesher;
+pub mod scoreboard;
 pub mod stepped;
+pub mod strip_unit;
+pub mod vertex_adder;

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The width sets that the hardware offers. rust-hdl fixes widths at compile time, so each set is a module of concrete
+//! block types; a scene picks one by name. To add a set, add a line to the macro call at the end.
+
+/// The widths of one set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WidthSet {
+    /// Name, as `--param` takes it.
+    pub name: &'static str,
+    /// What it is for.
+    pub summary: &'static str,
+    /// Components of a vertex, L.
+    pub components: usize,
+    /// Bits of a component outside the remesher, V.
+    pub vertex_bits: usize,
+    /// Fraction bits of the accumulators, g.
+    pub guard_bits: usize,
+    /// Bits of a signed grid coordinate, N.
+    pub coordinate_bits: usize,
+    /// Vertices in the column memory.
+    pub column_depth: usize,
+}
+
+impl WidthSet {
+    /// Bits of an accumulator, W = V + g + 1.
+    pub const fn accumulator_bits(&self) -> usize {
+        self.vertex_bits + self.guard_bits + 1
+    }
+    /// Smallest and largest grid coordinate.
+    pub const fn coordinates(&self) -> (i32, i32) {
+        (-(1 << (self.coordinate_bits - 1)), (1 << (self.coordinate_bits - 1)) - 1)
+    }
+}
+
+macro_rules! width_sets {
+    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal;)*) => {
+        $(
+            #[doc = $summary]
+            pub mod $name {
+                /// The widths.
+                pub const SET: super::WidthSet = super::WidthSet {
+                    name: $text,
+                    summary: $summary,
+                    components: $l,
+                    vertex_bits: $v,
+                    guard_bits: $g,
+                    coordinate_bits: $n,
+                    column_depth: $depth,
+                };
+                /// Vertex adder of the accumulators.
+                pub type VertexAdder = crate::vertex_adder::VertexAdder<$l, { $v + $g + 1 }>;
+                /// Strip unit.
+                pub type StripUnit = crate::strip_unit::StripUnit<$l, $v, $k>;
+                /// Remesher.
+                pub type Remesher = crate::remesher::Remesher<
+                    $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,
+                >;
+            }
+        )*
+
+        /// All width sets, the default one first.
+        pub const WIDTH_SETS: &[WidthSet] = &[$($name::SET),*];
+
+        /// Evaluates `$body` with the module of the width set called `$chosen` in scope as `$widths`: `Some`, or `None`
+        /// when there is no such set.
+        #[macro_export]
+        macro_rules! with_width_set {
+            ($d chosen:expr, $d widths:ident => $d body:expr) => {
+                match $d chosen {
+                    $($text => {
+                        use $d crate::widths::$name as $d widths;
+                        Some($d body)
+                    })*
+                    _ => None,
+                }
+            };
+        }
+    };
+}
+
+width_sets! { $;
+    default "default" "Nine components of 32 bits: position, normal, texture coordinates, 1/w; viewports to 4,096":
+        L 9, V 32, g 13, N 14, depth 4096, K 13;
+    position "position" "Three components: the remesher alone, on geometry":
+        L 3, V 32, g 13, N 14, depth 4096, K 13;
+    small "small" "Nine components of 24 bits for 640 x 480": L 9, V 24, g 10, N 11, depth 512, K 10;
+    deep "deep" "Thirteen components, depth ranges to 2^15 voxels": L 13, V 32, g 16, N 17, depth 4096, K 13;
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A stepped block with its type hidden, and where its streams lie in the words of a cycle.
+
+use crate::stepped::Stepped;
+use relief_hdl::ports::{PortShape, Ports};
+use rust_hdl_core::prelude::Block;
+
+/// A block that is stepped by words: inputs of a cycle in, outputs of that cycle out.
+pub trait Device {
+    /// Input ports but clock and reset.
+    fn inputs(&self) -> Vec<PortShape>;
+    /// Output ports.
+    fn outputs(&self) -> Vec<PortShape>;
+    /// Sets the inputs, lets the block settle and samples the outputs. Call [`Device::edge`] to finish the cycle.
+    fn settle(&mut self, inputs: &[u64], outputs: &mut [u64]);
+    /// Rising edge.
+    fn edge(&mut self);
+    /// Cycles since the reset.
+    fn cycle(&self) -> u64;
+    /// The block, for probes and the Verilog back-end.
+    fn block(&self) -> &dyn Block;
+}
+
+impl<B: Ports> Device for Stepped<B> {
+    fn inputs(&self) -> Vec<PortShape> {
+        Stepped::block(self).inputs()
+    }
+    fn outputs(&self) -> Vec<PortShape> {
+        Stepped::block(self).outputs()
+    }
+    fn settle(&mut self, inputs: &[u64], outputs: &mut [u64]) {
+        self.block_mut().write_inputs(inputs);
+        Stepped::settle(self);
+        Stepped::block(self).read_outputs(outputs);
+    }
+    fn edge(&mut self) {
+        Stepped::edge(self);
+    }
+    fn cycle(&self) -> u64 {
+        Stepped::cycle(self)
+    }
+    fn block(&self) -> &dyn Block {
+        let block: &B = Stepped::block(self);
+        block
+    }
+}
+
+/// Where the words of the ports lie. The input stream is `in_*`, the output stream every output but `in_ready`: fields
+/// in port order, `valid` and `ready` apart.
+#[derive(Clone, Debug)]
+pub struct Layout {
+    /// Input ports with the word each begins at.
+    pub inputs: Vec<(PortShape, usize)>,
+    /// Output ports with the word each begins at.
+    pub outputs: Vec<(PortShape, usize)>,
+    /// Words of all inputs.
+    pub input_words: usize,
+    /// Words of all outputs.
+    pub output_words: usize,
+    /// Word of `in_valid`, of `out_ready`; of `in_ready`, of `out_valid`.
+    pub in_valid: usize,
+    /// Word of `out_ready` among the inputs.
+    pub out_ready: usize,
+    /// Word of `in_ready` among the outputs.
+    pub in_ready: usize,
+    /// Word of `out_valid` among the outputs.
+    pub out_valid: usize,
+}
+
+fn places(ports: Vec<PortShape>) -> (Vec<(PortShape, usize)>, usize) {
+    let mut at = 0;
+    let placed = ports.into_iter().map(|port| {
+        let begins = at;
+        at += port.words();
+        (port, begins)
+    });
+    (placed.collect(), at)
+}
+
+impl Layout {
+    /// The layout of a device with one input and one output stream.
+    ///
+    /// # Panics
+    /// When one of the four handshake ports is missing: a fault of the block.
+    pub fn of(device: &dyn Device) -> Self {
+        let (inputs, input_words) = places(device.inputs());
+        let (outputs, output_words) = places(device.outputs());
+        let find = |ports: &[(PortShape, usize)], name: &str| {
+            ports
+                .iter()
+                .find(|(port, _)| port.name == name)
+                .unwrap_or_else(|| panic!("the block has no port `{name}`"))
+                .1
+        };
+        Self {
+            in_valid: find(&inputs, "in_valid"),
+            out_ready: find(&inputs, "out_ready"),
+            in_ready: find(&outputs, "in_ready"),
+            out_valid: find(&outputs, "out_valid"),
+            inputs,
+            outputs,
+            input_words,
+            output_words,
+        }
+    }
+    /// Fields of the input stream and the words where they begin.
+    pub fn in_fields(&self) -> impl Iterator<Item = &(PortShape, usize)> {
+        self.inputs.iter().filter(|(port, _)| port.name != "in_valid" && port.name != "out_ready")
+    }
+    /// Fields of the output stream, status included, and the words where they begin.
+    pub fn out_fields(&self) -> impl Iterator<Item = &(PortShape, usize)> {
+        self.outputs.iter().filter(|(port, _)| port.name != "in_ready" && port.name != "out_valid")
+    }
+}
