@@ -6,10 +6,8 @@ use super::print::Printer;
 use super::stmt::{Arm, Stmt};
 use super::types::Type;
 
-/// The value of a group that is one unconditional assignment, and so becomes an `assign`.
-pub(super) fn is_assign(group: &Group) -> bool {
-    matches!(group.body.as_slice(), [Stmt::Assign { .. }])
-}
+/// How a group with function calls begins.
+pub(super) const WITH_CALLS: &str = "always @(*)";
 
 impl Printer<'_> {
     /// One group.
@@ -19,9 +17,12 @@ impl Printer<'_> {
                 format!("    assign {} = {};\n", self.symbols.list[*target].name, self.top(value))
             }
             body => {
-                let mut out = "    always_comb begin\n".to_string();
-                self.statements(body, 2, &mut out);
-                out + "    end\n"
+                let mut text = String::new();
+                self.statements(body, 2, &mut text);
+                // Icarus 11 makes an `always_comb` wait for the arguments inside the functions that it calls, and so
+                // for itself. `always @(*)` does not; it needs something that changes, which the caller has checked.
+                let calls = self.functions.0.keys().any(|f| text.contains(&format!("{f}(")));
+                format!("    {} begin\n{text}    end\n", if calls { WITH_CALLS } else { "always_comb" })
             }
         }
     }

@@ -200,8 +200,9 @@ impl Context<'_> {
                             .or_else(|_| self.unsupported("a negative shift amount", "shift the other way"))?,
                     ),
                     None => match self.typed(k, None)? {
-                        k if matches!(k.ty, Type::Int { signed: false, .. }) => Index::Dynamic(Box::new(k)),
-                        k => return self.wrong("shift by", &k.ty, "use an unsigned amount"),
+                        k if matches!(k.ty, Type::Int { signed: false, bits: ..32 }) => Index::Dynamic(Box::new(k)),
+                        // Verilator 5.006 takes no wider amount, and dies on some.
+                        k => return self.wrong("shift by", &k.ty, "use an unsigned amount of less than 32 bits"),
                     },
                 };
                 Ok(Typed { ty: value.ty.clone(), node: Node::Shift { left, value, amount } })

@@ -14,30 +14,20 @@ pub(super) fn unsigned(bits: usize) -> Type {
     Type::Int { signed: false, bits }
 }
 
-/// Statement that takes the lane of number `k` out of `x` into `y`, for one lane `i` at a time.
-const LOOP: &str = "for (i = 0; i < LANES; i = i + 1)";
+/// How one lane of a result is computed from the lanes of the arguments, by the number of the lane.
+type LaneText<'a> = &'a dyn Fn(usize) -> String;
 
 impl Functions {
-    /// Adds a function and gives its name. `WIDTH`, `BITS` and `LANES` in the body stand for the measures of `of`, `f`
-    /// for the function's own name.
-    fn add(&mut self, name: String, result: &Type, arguments: &[(&str, &Type)], of: &Type, body: &str) -> String {
+    /// Adds a function `name` with the value `body` and gives its name.
+    fn add(&mut self, name: String, result: &Type, arguments: &[(&str, &Type)], body: &str) -> String {
         if !self.0.contains_key(&name) {
             let list: Vec<String> = arguments.iter().map(|(n, ty)| format!("input {}{n}", ty.full_range())).collect();
-            let (lanes, bits) = match of {
-                Type::Lanes { lanes, bits } => (*lanes, *bits),
-                ty => (1, ty.width()),
-            };
-            let body = body
-                .replace("FOR", LOOP)
-                .replace("LANES", &lanes.to_string())
-                .replace("BITS", &bits.to_string())
-                .replace("LAST", &(of.width() - 1).to_string())
-                .replace("RESULT", &name);
-            let mut text = format!("    function automatic {}{name}({});\n", result.full_range(), list.join(", "));
-            for line in body.lines() {
-                text += &format!("        {}\n", line.trim());
-            }
-            self.0.insert(name.clone(), text + "    endfunction\n");
+            let text = format!(
+                "    function automatic {}{name}({});\n        {name} = {body};\n    endfunction\n",
+                result.full_range(),
+                list.join(", ")
+            );
+            self.0.insert(name.clone(), text);
         }
         name
     }
@@ -46,48 +36,53 @@ impl Functions {
     pub(super) fn resize(&mut self, from: &Type, to: &Type) -> String {
         let (old, new) = (from.width(), to.width());
         let body = if new < old {
-            format!("RESULT = x[{}:0];", new - 1)
+            format!("x[{}:0]", new - 1)
         } else if from.is_signed() {
-            format!("RESULT = {{{{{}{{x[LAST]}}}}, x}};", new - old)
+            format!("{{{{{}{{x[{}]}}}}, x}}", new - old, old - 1)
         } else {
-            format!("RESULT = {{{}'d0, x}};", new - old)
+            format!("{{{}'d0, x}}", new - old)
         };
-        self.add(format!("{}_to_{}", from.short(), to.short()), to, &[("x", from)], from, &body)
+        self.add(format!("{}_to_{}", from.short(), to.short()), to, &[("x", from)], &body)
     }
 
     /// Lanes to lanes of another width.
     pub(super) fn resize_lanes(&mut self, from: &Type, to: &Type) -> String {
-        let (Type::Lanes { bits: old, .. }, Type::Lanes { bits: new, .. }) = (from, to) else {
-            return String::new();
-        };
-        let lane = if new < old {
-            format!("x[i * {old} +: {new}]")
-        } else {
-            format!("{{{{{}{{x[i * {old} + {}]}}}}, x[i * {old} +: {old}]}}", new - old, old - 1)
-        };
-        let body = format!("integer i;\nFOR RESULT[i * {new} +: {new}] = {lane};");
-        self.add(format!("{}_to_{}", from.short(), to.short()), to, &[("x", from)], from, &body)
+        let ((lanes, old), (_, new)) = (measures(from), measures(to));
+        let body = each_lane(lanes, &|i| {
+            let low = i * old;
+            if new < old {
+                format!("x[{}:{low}]", low + new - 1)
+            } else {
+                format!("{{{}{{x[{}]}}}}, {}", new - old, low + old - 1, part("x", i, old))
+            }
+        });
+        self.add(format!("{}_to_{}", from.short(), to.short()), to, &[("x", from)], &body)
     }
 
     /// Sum, difference or negation of lanes.
     pub(super) fn lane_by_lane(&mut self, op: &str, ty: &Type, operands: usize) -> String {
-        let (name, right) = match (op, operands) {
-            ("+", _) => ("add", "x[i * BITS +: BITS] + y[i * BITS +: BITS]"),
-            (_, 1) => ("neg", "-x[i * BITS +: BITS]"),
-            _ => ("sub", "x[i * BITS +: BITS] - y[i * BITS +: BITS]"),
+        let name = match (op, operands) {
+            ("+", _) => "add",
+            (_, 1) => "neg",
+            _ => "sub",
         };
-        let body = format!("integer i;\nFOR RESULT[i * BITS +: BITS] = {right};");
-        self.add(format!("{}_{name}", ty.short()), ty, &[("x", ty), ("y", ty)][..operands], ty, &body)
+        let (lanes, bits) = measures(ty);
+        let body = each_lane(lanes, &|i| match operands {
+            1 => format!("-{}", part("x", i, bits)),
+            _ => format!("{} {op} {}", part("x", i, bits), part("y", i, bits)),
+        });
+        self.add(format!("{}_{name}", ty.short()), ty, &[("x", ty), ("y", ty)][..operands], &body)
     }
 
     /// Shift of lanes.
     pub(super) fn shift_lanes(&mut self, left: bool, ty: &Type, amount: &Type) -> String {
-        let (name, right) = match left {
-            true => ("shl", "x[i * BITS +: BITS] << k"),
-            false => ("shr", "$signed(x[i * BITS +: BITS]) >>> k"),
-        };
-        let body = format!("integer i;\nFOR RESULT[i * BITS +: BITS] = {right};");
-        self.add(format!("{}_{name}_{}", ty.short(), amount.short()), ty, &[("x", ty), ("k", amount)], ty, &body)
+        let (lanes, bits) = measures(ty);
+        let body = each_lane(lanes, &|i| match left {
+            true => format!("{} << k", part("x", i, bits)),
+            false => format!("$signed({}) >>> k", part("x", i, bits)),
+        });
+        let name = format!("{}_{}_{}", ty.short(), if left { "shl" } else { "shr" }, amount.short());
+        self.add(name, ty, &[("x", ty), ("k", amount)], &body)
     }
 
     /// One bit of an integer, or one lane.
@@ -95,39 +90,61 @@ impl Functions {
         if matches!(from, Type::Int { .. }) {
             return self.slice(from, &BIT, index);
         }
-        let pad = number(index);
-        let body =
-            format!("integer i;\nRESULT = {}'d0;\nFOR\nif ({pad} == i) RESULT = x[i * BITS +: BITS];", to.width());
-        let name = format!("{}_lane_{}", from.short(), index.short());
-        self.add(name, to, &[("x", from), ("k", index)], from, &body)
+        let (lanes, bits) = measures(from);
+        // The last lane also stands for the indexes beyond it, which the block must not use.
+        let lanes = lanes.min(1 << index.width().min(16));
+        let choices: String =
+            (0..lanes - 1).map(|i| format!("({}) ? {} :\n            ", is(i, index), part("x", i, bits))).collect();
+        let body = choices + &part("x", lanes - 1, bits);
+        self.add(format!("{}_lane_{}", from.short(), index.short()), to, &[("x", from), ("k", index)], &body)
     }
 
     /// Some bits of an integer.
     pub(super) fn slice(&mut self, from: &Type, to: &Type, index: &Type) -> String {
-        let body = format!("reg [LAST:0] y;\ny = x >> k;\nRESULT = y[{}:0];", to.width() - 1);
+        let whole = unsigned(from.width());
+        let body = if whole == *to { "x >> k".into() } else { format!("{}(x >> k)", self.resize(&whole, to)) };
         let name = format!("{}_bits{}_{}", from.short(), to.width(), index.short());
-        self.add(name, to, &[("x", &unsigned(from.width())), ("k", index)], from, &body)
+        self.add(name, to, &[("x", &whole), ("k", index)], &body)
     }
 
     /// One bit or lane replaced.
-    pub(super) fn replace(&mut self, ty: &Type, part: &Type, index: &Type) -> String {
-        let (whole, pad) = (unsigned(ty.width()), number(index));
-        let (formal, body) = match ty {
-            Type::Lanes { .. } => {
-                (ty, format!("integer i;\nFOR\nRESULT[i * BITS +: BITS] = ({pad} == i) ? v : x[i * BITS +: BITS];"))
-            }
+    pub(super) fn replace(&mut self, ty: &Type, new: &Type, index: &Type) -> String {
+        let (whole, new) = (unsigned(ty.width()), unsigned(new.width()));
+        let body = match ty {
+            Type::Lanes { lanes, bits } => each_lane(*lanes, &|i| {
+                let old = part("x", i, *bits);
+                if i >> index.width().min(16) == 0 { format!("({}) ? v : {old}", is(i, index)) } else { old }
+            }),
+            _ if ty.width() == 1 => "v".into(),
             _ => {
-                (&whole, format!("integer i;\nfor (i = 0; i <= LAST; i = i + 1)\nRESULT[i] = ({pad} == i) ? v : x[i];"))
+                let zeros = ty.width() - 1;
+                format!("(x & ~({}'d1 << k)) | ({{{zeros}'d0, v}} << k)", ty.width())
             }
         };
         let name = format!("{}_replace_{}", ty.short(), index.short());
-        self.add(name, ty, &[("x", formal), ("k", index), ("v", &unsigned(part.width()))], ty, &body)
+        self.add(name, ty, &[("x", &whole), ("k", index), ("v", &new)], &body)
     }
 }
 
-/// The index `k` as a number that can be compared with an `integer`.
-fn number(index: &Type) -> String {
-    format!("{{{}'d0, k}}", 32 - index.width())
+/// Number and width of the lanes of a type that has them.
+fn measures(ty: &Type) -> (usize, usize) {
+    if let Type::Lanes { lanes, bits } = ty { (*lanes, *bits) } else { (1, ty.width()) }
+}
+
+/// Lane `i` of the argument `name`.
+fn part(name: &str, i: usize, bits: usize) -> String {
+    format!("{name}[{}:{}]", (i + 1) * bits - 1, i * bits)
+}
+
+/// Whether the argument `k` is `i`.
+fn is(i: usize, index: &Type) -> String {
+    format!("k == {}", index.literal(i as i128))
+}
+
+/// The lanes of a result, the highest first. Each is self-determined in its concatenation.
+fn each_lane(lanes: usize, text: LaneText) -> String {
+    let list: Vec<String> = (0..lanes).rev().map(|i| format!("\n            {}", text(i))).collect();
+    format!("{{{}\n        }}", list.join(","))
 }
 
 /// The format of a constant index.

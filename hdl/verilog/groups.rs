@@ -5,6 +5,7 @@
 //! Statements that share a target stay together, and so do targets that share an `if` or `match`; where a piece would
 //! feed itself, it is taken apart once more, target by target.
 
+use super::Direction;
 use super::analysis::{project, visit};
 use super::stmt::Stmt;
 use super::symbols::{Role, Symbols};
@@ -50,6 +51,28 @@ pub(super) fn split(symbols: &Symbols, body: &[Stmt]) -> Vec<Group> {
         );
     }
     groups
+}
+
+/// Signals that can change: nothing ever starts an `always @(*)` that reads only others.
+pub(super) fn moving(symbols: &Symbols, groups: &[Group]) -> BTreeSet<usize> {
+    let source = |k: &usize| matches!(symbols.list[*k].role, Role::Port(Direction::Input) | Role::ChildOutput(_));
+    let mut moving: BTreeSet<usize> = (0..symbols.list.len()).filter(source).collect();
+    // Groups may stand in another order than the statements that write and read a wire.
+    for _ in 0..groups.len() {
+        for group in groups {
+            let mut moves = false;
+            visit(&group.body, &mut |_| {}, &mut |k, _| moves |= moving.contains(&k));
+            if moves {
+                moving.extend(&group.targets);
+            }
+        }
+    }
+    moving
+}
+
+/// Whether a group is one unconditional assignment, and so becomes an `assign`.
+pub(super) fn is_assign(group: &Group) -> bool {
+    matches!(group.body.as_slice(), [Stmt::Assign { .. }])
 }
 
 /// For each part, whether it feeds itself, through other parts or through children.

@@ -2,9 +2,9 @@
 //! One module: ports, constants, declarations, children and the kernel's pieces.
 
 use super::analysis::{check as check_order, visit, without_overwritten};
-use super::body::is_assign;
+use super::body::WITH_CALLS;
 use super::functions::Functions;
-use super::groups::{Group, split};
+use super::groups::{Group, is_assign, moving, split};
 use super::names::flat;
 use super::print::Printer;
 use super::scope::Scope;
@@ -44,11 +44,23 @@ pub(super) fn module(scope: &Scope, name: &str, instances: &[Option<&Module>]) -
     let groups = split(&symbols, &kernel.body);
     let mut parts = Parts { scope, symbols: &symbols, kernel: &kernel, groups: &groups, driven: BTreeSet::new() };
     parts.driven = groups.iter().flat_map(|g| g.targets.iter().copied()).collect();
-    let mut printer = Printer { symbols: &symbols, functions: Functions::default() };
-    let logic: String = groups.iter().map(|g| printer.group(g)).collect();
+    let mut printer = Printer { symbols: &symbols, functions: Functions::default(), compares_constants: false };
+    let (mut logic, moving) = (String::new(), moving(&symbols, &groups));
+    for group in &groups {
+        let text = printer.group(group);
+        if text.contains(WITH_CALLS) && group.targets.is_disjoint(&moving) {
+            let signal = group.targets.first().map_or("", |k| &symbols.list[*k].name);
+            return refuse(&format!("a choice between constants for `{signal}`"), "hold the result in a `Constant`");
+        }
+        logic += &text;
+    }
     let pasted = parts.pasted();
     let functions = printer.functions.0;
     let mut source = parts.head(name, custom.is_some());
+    if printer.compares_constants {
+        // A parameter at the end of its range makes a comparison constant, which is not a fault of the block.
+        source += "\n    /* verilator lint_off CMPCONST */\n    /* verilator lint_off UNSIGNED */\n";
+    }
     for section in [
         parts.constants(),
         function_section(&functions),

@@ -13,6 +13,8 @@ use super::types::{BIT, Type};
 pub(super) struct Printer<'a> {
     pub symbols: &'a Symbols,
     pub functions: Functions,
+    /// Whether something was compared with a constant of the block, whose value may decide the comparison.
+    pub compares_constants: bool,
 }
 
 impl Printer<'_> {
@@ -22,7 +24,15 @@ impl Printer<'_> {
         let lanes = matches!(e.ty, Type::Lanes { .. });
         match &e.node {
             Node::Binary("+" | "-", ..) | Node::Unary("-", _) | Node::Shift { .. } if lanes => self.operand(e),
-            Node::Binary(op, a, b) => format!("{} {op} {}", self.operand(a), self.operand(b)),
+            Node::Binary(op, a, b) => {
+                if matches!(*op, "<" | "<=" | ">" | ">=") {
+                    let constant = |k: usize| matches!(self.symbols.list[k].role, Role::Constant(_));
+                    let mut found = false;
+                    e.reads(&mut |k, _| found |= constant(k));
+                    self.compares_constants |= found;
+                }
+                format!("{} {op} {}", self.operand(a), self.operand(b))
+            }
             Node::Unary(op, a) => {
                 let op = if *op == "~" && a.ty == BIT { "!" } else { op };
                 format!("{op}{}", self.operand(a))
