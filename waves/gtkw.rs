@@ -124,7 +124,9 @@ fn wires(place: &Place<'_>) -> Vec<String> {
     let scope = place.path.rsplit_once('.').map_or("", |(scope, _)| scope);
     let is_text = matches!(place.signal.kind, Kind::Enum(_));
     let wire = |(name, bits): (String, usize)| match bits {
-        bits if bits > 1 && !is_text => format!("{scope}.{name}[{}:0]", bits - 1),
+        _ if is_text => format!("{scope}.{name}"),
+        1 if name.ends_with(']') => format!("{scope}.{name}[0]"),
+        bits @ 2.. => format!("{scope}.{name}[{}:0]", bits - 1),
         _ => format!("{scope}.{name}"),
     };
     place.signal.wires().into_iter().map(wire).collect()

@@ -267,6 +267,10 @@ fn declare<W: Write>(out: &mut Writer<W>, scope: &Scope, word: &mut usize, taps:
                 for (name, bits) in signal.wires() {
                     let id = match &signal.kind {
                         Kind::Enum(_) => out.add_var(VarType::String, 1, &name, None)?,
+                        // An element of one bit gets a number of its own, or readers take it for a bit of a vector.
+                        _ if bits == 1 && name.ends_with(']') => {
+                            out.add_var(VarType::Wire, 1, &name, Some(ReferenceIndex::BitSelect(0)))?
+                        }
                         _ if bits == 1 => out.add_wire(1, &name)?,
                         _ => {
                             let index = ReferenceIndex::Range(bits as i32 - 1, 0);

@@ -140,7 +140,12 @@ fn declare<W: Write>(
             Some(SignalEncoding::BitVector(bits)) => (VarType::Wire, bits),
             _ => (VarType::String, 1),
         };
-        let index = (kind == VarType::Wire && bits > 1).then(|| ReferenceIndex::Range(bits as i32 - 1, 0));
+        let index = match bits {
+            _ if kind != VarType::Wire => None,
+            // As the recorder does, and for the same reason.
+            1 => name.ends_with(']').then_some(ReferenceIndex::BitSelect(0)),
+            bits => Some(ReferenceIndex::Range(bits as i32 - 1, 0)),
+        };
         // Two names of one signal share its code, as in the source.
         match ids.get(signal) {
             Some(id) => out.var_def(kind, bits, *id, name, index)?,

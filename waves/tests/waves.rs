@@ -131,6 +131,30 @@ fn recorder_writes_signed_lanes_and_minimum_values() {
 }
 
 #[test]
+fn recorder_keeps_elements_of_one_bit_apart() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("bits.vcd");
+    let scope = (0..4).fold(Scope::new("top"), |scope, k| scope.with(Signal::unsigned(format!("full[{k}]"), 1)));
+    let scope = scope.with(Scope::new("row[1]").with(Signal::unsigned("full", 1)).with(Signal::lanes("sign", 3, 1)));
+    let tree = SignalTree::new(scope).expect("sound names");
+    let mut recorder = VcdRecorder::new(File::create(&path).expect("a file"), tree, 0..2);
+    recorder.sample(0, &[0, 1, 0, 1, 1, 0b101]).expect("a sample");
+    recorder.sample(1, &[1, 1, 0, 0, 0, 0b010]).expect("a sample");
+    recorder.finish().expect("a whole file");
+    let cut = folder.path().join("cut.vcd");
+    trim(&path, &cut, 0..2).expect("a cut");
+    for file in [path, cut] {
+        let waves = read(file).expect("a readable file");
+        let high = |name: &str, cycle| waves.value(name, cycle).expect(name).is_high();
+        assert_eq!([0, 1, 2, 3].map(|k| high(&format!("top.full[{k}]"), 0)), [false, true, false, true]);
+        assert_eq!([0, 1, 2, 3].map(|k| high(&format!("top.full[{k}]"), 1)), [true, true, false, false]);
+        assert_eq!([high("top.row[1].full", 0), high("top.row[1].full", 1)], [true, false]);
+        assert_eq!([0, 1, 2].map(|k| high(&format!("top.row[1].sign[{k}]"), 0)), [true, false, true]);
+        assert_eq!(waves.traces().count(), 8);
+    }
+}
+
+#[test]
 fn recorder_window_is_exact() {
     let folder = tempfile::tempdir().expect("a folder");
     let samples = samples(&tree(), 60);
