@@ -7,6 +7,7 @@
 //! | [`stepped`], [`device`] | a block under a clock that is stepped by hand; the same with its type hidden |
 //! | [`scoreboard`] | idle cycles, backpressure, comparison beat by beat |
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
+//! | [`probe`] | the signals inside a block, for the recorder of waveforms |
 //! | `<block>` | the binding of that block |
 
 pub mod binding;
