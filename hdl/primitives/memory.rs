@@ -72,10 +72,11 @@ impl<T: Synth, const A: usize> Logic for Ram<T, A> {
     }
     fn hdl(&self) -> Verilog {
         let (top_bit, last) = (T::BITS - 1, self.words.len() - 1);
+        let (bits, unused) = address::<A>(last, &["write_address", "read_address"]);
         Verilog::Custom(format!(
-            "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\nalways @(posedge clock) begin\n    \
-             if (@write_enable) @memory[@write_address] <= @write_data;\n    \
-             @read_data <= @memory[@read_address];\nend\n"
+            "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\n{unused}always @(posedge clock) begin\n    \
+             if (@write_enable) @memory[@write_address{bits}] <= @write_data;\n    \
+             @read_data <= @memory[@read_address{bits}];\nend\n"
         ))
     }
 }
@@ -156,9 +157,10 @@ impl<T: Synth, const A: usize> Logic for Rom<T, A> {
     /// The contents travel behind the text as lines `//hex <file> <word>`; the back-end writes them to the file.
     fn hdl(&self) -> Verilog {
         let (top_bit, last, file) = (T::BITS - 1, self.words.len() - 1, &self.file);
+        let (bits, unused) = address::<A>(last, &["read_address"]);
         let mut text = format!(
-            "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\ninitial $readmemh(\"{file}\", @memory);\n\
-             always @(posedge clock) @read_data <= @memory[@read_address];\n"
+            "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\n{unused}initial $readmemh(\"{file}\", @memory);\n\
+             always @(posedge clock) @read_data <= @memory[@read_address{bits}];\n"
         );
         for word in &self.words {
             text += &format!("//hex {file} {}\n", hexadecimal(&word.vcd()));
@@ -186,6 +188,17 @@ impl<T: Synth, const A: usize> Block for Rom<T, A> {
         self.read_data.accept("read_data", probe);
         probe.visit_end_scope(name, self);
     }
+}
+
+/// The part of an address of `A` bits that reaches the words `0 ..= last`, and a line that takes note of the other bits,
+/// which a counter needs that counts up to the depth. Empty where the address is no wider than it must be.
+fn address<const A: usize>(last: usize, ports: &[&str]) -> (String, String) {
+    let needed = (usize::BITS - last.leading_zeros()).max(1) as usize;
+    if needed == A {
+        return (String::new(), String::new());
+    }
+    let ports: Vec<String> = ports.iter().map(|port| format!("@{port}")).collect();
+    (format!("[{}:0]", needed - 1), format!("wire @unused = &{{1'b0, {}}};\n", ports.join(", ")))
 }
 
 /// Bits of a value, most significant first. Fields of a composite stand from the least significant upwards.
