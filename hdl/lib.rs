@@ -15,9 +15,11 @@ pub mod widths;
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
 pub mod prelude {
     pub use crate::primitives::{Multiplier, Ram, Register, Rom};
-    pub use crate::signal::{ClockReset, Gated, Input, Lanes, Output, S, Scalar, U, WideS, WideU, Wire, bit_cast_to};
+    pub use crate::signal::{
+        ClockReset, Gated, Input, Lanes, Latch, Output, S, Scalar, U, WideS, WideU, Wire, bit_cast_to,
+    };
     pub use crate::verilog::module_name;
-    pub use crate::{ports, watched};
+    pub use crate::{latches, ports, watched};
     pub use rust_hdl_core::prelude::{
         Atom, AtomKind, Bit, Bits, Block, Constant, Logic, LogicBlock, LogicState, Probe, Synth, TimingInfo, ToBits,
         TypeDescriptor, TypeField, TypeKind, VCDValue, Verilog, VerilogLiteral, ast, bit_cast, block, clock, clog2,

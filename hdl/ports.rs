@@ -34,11 +34,11 @@ pub trait Ports: Watched {
 }
 
 /// Implements [`Ports`] and [`Watched`] for a block: its generics, its type, its inputs and outputs in the order of the
-/// fields, and the sub-blocks that are no registers.
+/// fields, the sub-blocks that are no registers, and everything that holds state.
 #[macro_export]
 macro_rules! ports {
-    ([$($generic:tt)*] $block:ty { inputs: $($input:ident),*; outputs: $($output:ident),*; blocks: $($child:ident),* }) => {
-        $crate::watched! { [$($generic)*] $block: $($input),*; $($child),* }
+    ([$($generic:tt)*] $block:ty { inputs: $($input:ident),*; outputs: $($output:ident),*; blocks: $($child:ident),*; state: $($state:ident),* }) => {
+        $crate::watched! { [$($generic)*] $block: $($input),*; $($child),*; $($state),* }
         impl<$($generic)*> $crate::ports::Ports for $block {
             fn clock_mut(&mut self) -> &mut $crate::signal::Input<$crate::signal::ClockReset> {
                 &mut self.clock

@@ -239,6 +239,7 @@ ports! {
         inputs: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, out_ready;
         outputs: in_ready, out_valid, out_kind, out_left, out_right, out_swap, out_last, out_left_vertex,
             out_right_vertex;
-        blocks: triangle, edges, interior, sweep, walkers, commands
+        blocks: triangle, edges, interior, sweep, walkers, commands;
+        state: triangle, edges, interior, sweep, walkers, commands
     }
 }

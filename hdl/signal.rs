@@ -13,7 +13,7 @@ mod port;
 mod words;
 
 pub use cast::{BitCast, Scalar, bit_cast_to};
-pub use gated::{Gated, Watched};
+pub use gated::{Gated, Latch, Watched};
 pub use integer::{S, U, WideS, WideU};
 pub use lanes::Lanes;
 pub use port::{ClockReset, Input, Output, Wire};

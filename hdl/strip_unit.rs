@@ -307,6 +307,7 @@ ports! {
         inputs: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready;
         outputs: in_ready, out_valid, out_first, out_second, out_swap, out_last, out_left, out_right, out_next_left,
             out_next_right, error;
-        blocks: column
+        blocks: column;
+        state: left, right, start, edge_held, swap, left_is_right, left_is_edge, right_is_edge, start_is_edge, right_stored, right_slot, failed, sent_valid, sent_first, sent_second, sent_swap, sent_last, sent_left, sent_right, sent_next_left, sent_next_right, column
     }
 }

@@ -84,6 +84,7 @@ ports! {
     [const L: usize, const W: usize] VertexAdder<L, W> {
         inputs: in_valid, in_vertex, in_difference, out_ready;
         outputs: in_ready, out_valid, out_vertex;
-        blocks:
+        blocks:;
+        state: full, sum
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Steps a block cycle by cycle in the calling thread.
 //!
-//! One cycle: inputs are set while the clock is low, the block settles, outputs are sampled, and the rising edge latches
-//! every register in one pass. What follows the edge settles in the next cycle's low phase, together with its inputs.
+//! One cycle: inputs are set, the block settles, outputs are sampled, and the rising edge latches every register. What
+//! follows the edge settles in the next cycle, together with its inputs. The clock net itself stays low: registers take
+//! the edge by [`Latch`](relief_hdl::signal::Latch), and waveforms draw the clock.
 
 use relief_hdl::ports::Ports;
 
@@ -54,7 +55,6 @@ impl<B: Ports> Stepped<B> {
     /// # Panics
     /// When the block does not settle: a combinational loop, which is a fault of the block.
     pub fn settle(&mut self) {
-        self.block.clock_mut().next.clk = false;
         for _ in 0..SETTLE_LIMIT {
             self.block.update_all();
             if !self.block.inside_moves() {
@@ -66,8 +66,8 @@ impl<B: Ports> Stepped<B> {
 
     /// Rising edge.
     pub fn edge(&mut self) {
-        self.block.clock_mut().next.clk = true;
-        self.block.update_all();
+        let reset = self.block.clock_mut().next.reset;
+        self.block.latch(reset);
         self.cycle += 1;
     }
 }

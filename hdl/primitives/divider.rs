@@ -124,3 +124,5 @@ impl<const L: usize, const Q: usize, const R: usize> Logic for Divider<L, Q, R> 
         module_name(format!("divider_{L}x{Q}_by_{R}"))
     }
 }
+
+latches! { [const L: usize, const Q: usize, const R: usize] Divider<L, Q, R>: count, partial, bits, y }

@@ -7,7 +7,7 @@
 //! An address beyond the depth reads zero and writes nothing in simulation; hardware must not rely on it.
 
 use crate::primitives::INLINE;
-use crate::signal::{ClockReset, Input, Output, U};
+use crate::signal::{ClockReset, Input, Latch, Output, U};
 use rust_hdl_core::prelude::*;
 
 /// RAM of up to 2^A words of type `T`, one write and one read port.
@@ -50,21 +50,27 @@ impl<T: Synth, const A: usize> Ram<T, A> {
     }
 }
 
+impl<T: Synth, const A: usize> Latch for Ram<T, A> {
+    #[inline(always)]
+    fn latch(&mut self, _reset: bool) -> bool {
+        let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
+        let mut changed = word != self.read_data.next;
+        self.read_data.next = word;
+        if self.write_enable.next
+            && let Some(word) = self.words.get_mut(self.write_address.next.index())
+        {
+            changed |= *word != self.write_data.next;
+            *word = self.write_data.next;
+        }
+        changed
+    }
+}
+
 impl<T: Synth, const A: usize> Logic for Ram<T, A> {
     #[inline(always)]
     fn update(&mut self) {
         let clk = self.clock.next.clk;
-        self.changed = false;
-        if clk && !self.clock_was_high {
-            let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
-            self.changed = word != self.read_data.next;
-            self.read_data.next = word;
-            if self.write_enable.next
-                && let Some(word) = self.words.get_mut(self.write_address.next.index())
-            {
-                *word = self.write_data.next;
-            }
-        }
+        self.changed = clk && !self.clock_was_high && self.latch(false);
         self.clock_was_high = clk;
     }
     fn connect(&mut self) {
@@ -139,16 +145,21 @@ impl<T: Synth, const A: usize> Rom<T, A> {
     }
 }
 
+impl<T: Synth, const A: usize> Latch for Rom<T, A> {
+    #[inline(always)]
+    fn latch(&mut self, _reset: bool) -> bool {
+        let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
+        let changed = word != self.read_data.next;
+        self.read_data.next = word;
+        changed
+    }
+}
+
 impl<T: Synth, const A: usize> Logic for Rom<T, A> {
     #[inline(always)]
     fn update(&mut self) {
         let clk = self.clock.next.clk;
-        self.changed = false;
-        if clk && !self.clock_was_high {
-            let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
-            self.changed = word != self.read_data.next;
-            self.read_data.next = word;
-        }
+        self.changed = clk && !self.clock_was_high && self.latch(false);
         self.clock_was_high = clk;
     }
     fn connect(&mut self) {

@@ -9,7 +9,7 @@
 //! | p     | signed wide P |
 
 use crate::primitives::INLINE;
-use crate::signal::{ClockReset, Input, Output, S, Scalar, WideS};
+use crate::signal::{ClockReset, Input, Latch, Output, S, Scalar, WideS};
 use rust_hdl_core::prelude::*;
 
 /// Multiplier of `A` by `B` bits with a registered product of `P` bits.
@@ -32,16 +32,21 @@ impl<const A: usize, const B: usize, const P: usize> Multiplier<A, B, P> {
     pub const LATENCY: usize = 1;
 }
 
+impl<const A: usize, const B: usize, const P: usize> Latch for Multiplier<A, B, P> {
+    #[inline(always)]
+    fn latch(&mut self, _reset: bool) -> bool {
+        let product = WideS::new(self.a.next.wide().wrapping_mul(self.b.next.wide()));
+        let changed = product != self.p.next;
+        self.p.next = product;
+        changed
+    }
+}
+
 impl<const A: usize, const B: usize, const P: usize> Logic for Multiplier<A, B, P> {
     #[inline(always)]
     fn update(&mut self) {
         let clk = self.clock.next.clk;
-        self.changed = false;
-        if clk && !self.clock_was_high {
-            let product = WideS::new(self.a.next.wide().wrapping_mul(self.b.next.wide()));
-            self.changed = product != self.p.next;
-            self.p.next = product;
-        }
+        self.changed = clk && !self.clock_was_high && self.latch(false);
         self.clock_was_high = clk;
     }
     fn connect(&mut self) {

@@ -7,7 +7,7 @@
 //! | d, q   | T   | |
 
 use crate::primitives::INLINE;
-use crate::signal::{ClockReset, Input, Output};
+use crate::signal::{ClockReset, Input, Latch, Output};
 use rust_hdl_core::prelude::*;
 
 /// A register of any signal type. [`Register::default`] is reset to zero, [`Register::new`] to a value,
@@ -55,20 +55,25 @@ impl<T: Synth> Register<T> {
     }
 }
 
+impl<T: Synth> Latch for Register<T> {
+    #[inline(always)]
+    fn latch(&mut self, reset: bool) -> bool {
+        let next = match (&self.reset_value, reset) {
+            (Some(value), true) => value.val(),
+            _ if self.enable.next => self.d.next,
+            _ => self.q.next,
+        };
+        let changed = next != self.q.next;
+        self.q.next = next;
+        changed
+    }
+}
+
 impl<T: Synth> Logic for Register<T> {
     #[inline(always)]
     fn update(&mut self) {
         let ClockReset { clk, reset } = self.clock.next;
-        self.changed = false;
-        if clk && !self.clock_was_high {
-            let next = match (&self.reset_value, reset) {
-                (Some(value), true) => value.val(),
-                _ if self.enable.next => self.d.next,
-                _ => self.q.next,
-            };
-            self.changed = next != self.q.next;
-            self.q.next = next;
-        }
+        self.changed = clk && !self.clock_was_high && self.latch(reset);
         self.clock_was_high = clk;
     }
     fn connect(&mut self) {

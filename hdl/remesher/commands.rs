@@ -192,4 +192,4 @@ impl<const L: usize, const V: usize, const W: usize, const K: usize> Logic for C
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const K: usize] Commands<L, V, W, K>: in_valid, in_kind, in_left, in_right, in_keep, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready;  }
+watched! { [const L: usize, const V: usize, const W: usize, const K: usize] Commands<L, V, W, K>: in_valid, in_kind, in_left, in_right, in_keep, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready;; left_stored, right_stored, open, edge_held, sent_valid, sent_kind, sent_left, sent_right, sent_swap, sent_last, sent_left_vertex, sent_right_vertex }

@@ -268,4 +268,4 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; multiplier, divider }
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; multiplier, divider; state, count, issuing, arriving, arriving_second, arriving_lane, finished, first_product, high, low, side_reg, sweep_reg, base_reg, multiplier, divider }

@@ -703,4 +703,4 @@ impl<const T: usize> Logic for Sweep<T> {
     }
 }
 
-watched! { [const T: usize] Sweep<T>: record_valid, record_n_ab, record_n_ac, record_n_bc, record_s_b, record_s_c, record_d_b, record_d_c, record_roof, record_point, record_swap, op_ready;  }
+watched! { [const T: usize] Sweep<T>: record_valid, record_n_ab, record_n_ac, record_n_bc, record_s_b, record_s_c, record_d_b, record_d_c, record_roof, record_point, record_swap, op_ready;; state, n_ab, n_ac, n_bc, width_a, width_b, d_b, d_c, roof, point, swap, second, pointed, on_bc, corner_start, column, width, passed, row_primary, error_primary, row_base, edge_index, edge_row, edge_row_error, edge_column, edge_column_error, row_left, row_right, on_edge, column_edge, column_index, out_valid, out_code, out_left, out_right, out_second, out_on_bc, out_at_end, out_base, out_column_edge, out_edge, out_edge_next, out_advance, out_turn, out_keep, out_swap, out_last }

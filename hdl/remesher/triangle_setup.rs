@@ -447,4 +447,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, prime_ab, prime_bc, prime_ca, odd, decreasing, is_roof, is_point, sb, sc, db, dc, area, db_other, dc_other, product, area_other, multiplier }

@@ -1,69 +1,84 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Skips the simulation of a sub-block while nothing can change in it. Hardware and waveforms are the same with or
-//! without it: a gate is transparent to kernels, probes and the Verilog back-end.
+//! Quick stepping: latches every register of a block without evaluating a kernel, and skips the simulation of a
+//! sub-block while nothing can change in it. Hardware and waveforms are the same with or without it.
 //!
-//! A block settles to a function of its inputs and registers, so between clock edges it is evaluated again only when
-//! an input differs from the one it was evaluated with, or an output or register of its own still moves. A rising edge
-//! that changed no register changes none the next time either, unless an input moved: such edges are skipped, too.
+//! A block settles to a function of its inputs and registers. So a rising edge needs no kernel, only what the kernels
+//! have left at the registers' inputs; and between edges a sub-block is evaluated again only when an input differs from
+//! the one it was evaluated with, or a sub-block of its own still moves. An edge that changed no register changes none
+//! the next time either, unless the block has been evaluated since: such edges are skipped, too.
 
-use super::{ClockReset, Input};
+use super::Input;
 use rust_hdl_core::prelude::*;
 use std::ops::{Deref, DerefMut};
 
-/// A block that tells its gate whether an input has moved.
-pub trait Watched: Block {
-    /// The clock as its parent drives it.
-    fn clock(&self) -> ClockReset;
-    /// Sets the clock.
-    fn set_clock(&mut self, clock: ClockReset);
+/// Something that holds state: it can take a rising edge by itself.
+pub trait Latch {
+    /// Takes a rising edge, with or without reset. True when any state changed.
+    fn latch(&mut self, reset: bool) -> bool;
+}
+
+/// Implements [`Latch`] for a block: generics, type, and every register, memory and sub-block that holds state.
+#[macro_export]
+macro_rules! latches {
+    ([$($generic:tt)*] $block:ty: $($state:ident),*) => {
+        impl<$($generic)*> $crate::signal::Latch for $block {
+            #[inline]
+            fn latch(&mut self, reset: bool) -> bool {
+                let _ = reset;
+                false $(| self.$state.latch(reset))*
+            }
+        }
+    };
+}
+
+/// A block that tells its gate or its bench what moves.
+pub trait Watched: Block + Latch {
     /// Whether an input but the clock differs from what the last call saw; remembers the present values.
     fn inputs_moved(&mut self) -> bool;
     /// Whether a sub-block has moved an output that this block's kernel has not read yet.
     fn inside_moves(&self) -> bool;
 }
 
-/// Implements [`Watched`]: generics, type, the inputs but the clock, and the sub-blocks that are no registers.
+/// Implements [`Watched`] and [`Latch`]: generics, type, the inputs but the clock, the sub-blocks that are no
+/// registers, and everything that holds state.
 #[macro_export]
 macro_rules! watched {
-    ([$($generic:tt)*] $block:ty: $($input:ident),*; $($child:ident),*) => {
+    ([$($generic:tt)*] $block:ty: $($input:ident),*; $($child:ident),*; $($state:ident),*) => {
+        $crate::latches! { [$($generic)*] $block: $($state),* }
         impl<$($generic)*> $crate::signal::Watched for $block {
             #[inline(always)]
-            fn clock(&self) -> $crate::signal::ClockReset {
-                self.clock.next
-            }
-            #[inline(always)]
-            fn set_clock(&mut self, clock: $crate::signal::ClockReset) {
-                self.clock.next = clock;
+            fn inputs_moved(&mut self) -> bool {
+                false $(| self.$input.moved())*
             }
             #[inline(always)]
             fn inside_moves(&self) -> bool {
                 false $(| $crate::prelude::Block::has_changed(&self.$child))*
             }
-            #[inline(always)]
-            fn inputs_moved(&mut self) -> bool {
-                false $(| self.$input.moved())*
-            }
         }
     };
 }
 
-/// A sub-block behind a gate; use it as the block itself.
+/// A sub-block behind a gate; use it as the block itself: the gate is transparent to kernels, probes and the back-end.
 #[derive(Clone, Debug)]
 pub struct Gated<B: Watched> {
     block: B,
-    clock: ClockReset,
     /// The block must be evaluated again: a sub-block of it moved.
     unsettled: bool,
     /// An output moved in the last pass: the parent must be evaluated again.
     changed: bool,
-    /// The last rising edge changed nothing, and no input has moved since.
+    /// The last rising edge changed nothing, and the block has not been evaluated since.
     quiet: bool,
 }
 
 impl<B: Watched> Gated<B> {
     /// Puts `block` behind a gate.
     pub fn new(block: B) -> Self {
-        Self { block, clock: ClockReset::default(), unsettled: true, changed: true, quiet: false }
+        Self { block, unsettled: true, changed: true, quiet: false }
+    }
+    fn evaluate(&mut self) {
+        self.block.update_all();
+        self.changed = self.block.has_changed();
+        self.unsettled = self.block.inside_moves();
     }
 }
 
@@ -88,6 +103,21 @@ impl<B: Watched> DerefMut for Gated<B> {
     }
 }
 
+impl<B: Watched> Latch for Gated<B> {
+    fn latch(&mut self, reset: bool) -> bool {
+        if self.quiet && !reset {
+            return false;
+        }
+        let changed = self.block.latch(reset);
+        self.quiet = !changed;
+        if changed {
+            // What the edge changed shows at the outputs before the parent reads them.
+            self.evaluate();
+        }
+        changed
+    }
+}
+
 impl<B: Watched> Logic for Gated<B> {
     fn update(&mut self) {}
 }
@@ -98,23 +128,11 @@ impl<B: Watched> Block for Gated<B> {
     }
     #[inline]
     fn update_all(&mut self) {
-        let clock = self.block.clock();
-        let moved = self.block.inputs_moved() || clock.reset != self.clock.reset;
-        let rising = clock.clk && !self.clock.clk;
-        self.quiet &= !moved;
         self.changed = false;
-        if rising && (moved || self.unsettled || !self.quiet) {
-            self.block.update_all();
-            self.quiet = !self.block.has_changed();
-            // What the edge changed shows at the outputs at once; the parent lowers the clock in its next pass.
-            self.block.set_clock(ClockReset { clk: false, ..clock });
+        if self.block.inputs_moved() || self.unsettled {
+            self.quiet = false;
+            self.evaluate();
         }
-        if (rising && !self.quiet) || (!rising && (moved || self.unsettled)) {
-            self.block.update_all();
-            self.changed = self.block.has_changed();
-            self.unsettled = self.block.inside_moves();
-        }
-        self.clock = clock;
     }
     #[inline(always)]
     fn has_changed(&self) -> bool {

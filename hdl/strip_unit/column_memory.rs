@@ -114,3 +114,5 @@ impl<const L: usize, const V: usize, const K: usize> Logic for ColumnMemory<L, V
         module_name("column_memory")
     }
 }
+
+latches! { [const L: usize, const V: usize, const K: usize] ColumnMemory<L, V, K>: ram, first, next, count, ready }
