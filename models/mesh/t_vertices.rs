@@ -12,13 +12,14 @@ use super::points::Points;
 /// Vertices of a leaf.
 const LEAF: usize = 8;
 
+/// A cache line: the search waits for memory more than it computes.
 struct Node {
     low: [f64; 3],
     high: [f64; 3],
-    /// The candidates below the node.
-    range: std::ops::Range<usize>,
-    /// The two halves, unless the node is a leaf.
-    halves: Option<[usize; 2]>,
+    /// The candidates below the node, from one to before the other.
+    range: [u32; 2],
+    /// The two halves; zeros in a leaf, as the root is nobody's half.
+    halves: [u32; 2],
 }
 
 struct Tree {
@@ -35,11 +36,19 @@ pub(super) fn find(points: &Points, edges: &[[u32; 2]]) -> Vec<(u32, [u32; 2])> 
     let largest = candidates.iter().flat_map(|(_, place)| place).fold(0.0, |most: f64, value| most.max(value.abs()));
     // Coordinates are right to a few 2^-53 of themselves; the products of the slab test stay within a few more.
     let margin = largest * f64::powi(2.0, -44);
-    let count = candidates.len();
     let mut tree = Tree { candidates, nodes: Vec::new() };
-    if count > 0 {
-        tree.build(0..count);
+    if !tree.candidates.is_empty() {
+        // Fewer than 2^32 vertices, so fewer than 2^32 candidates and nodes.
+        tree.build(0..tree.candidates.len());
     }
+    // Neighbours in the tree are searched one after the other: they need the same nodes.
+    let mut place = vec![0u32; points.len()];
+    for (index, (vertex, _)) in tree.candidates.iter().enumerate() {
+        place[*vertex as usize] = index as u32;
+    }
+    let mut edges = edges.to_vec();
+    edges.par_sort_unstable_by_key(|edge| place[edge[0] as usize]);
+    drop(place);
     let mut found: Vec<(u32, [u32; 2])> = edges
         .par_iter()
         .flat_map_iter(|edge| tree.inside(points, *edge, margin).into_iter().map(|vertex| (vertex, *edge)))
@@ -51,7 +60,7 @@ pub(super) fn find(points: &Points, edges: &[[u32; 2]]) -> Vec<(u32, [u32; 2])> 
 
 impl Tree {
     /// Builds the node of a range and those below it; its index. The depth is the logarithm of the number of candidates.
-    fn build(&mut self, range: std::ops::Range<usize>) -> usize {
+    fn build(&mut self, range: std::ops::Range<usize>) -> u32 {
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         for (_, place) in &self.candidates[range.clone()] {
             for axis in 0..3 {
@@ -60,34 +69,38 @@ impl Tree {
             }
         }
         let index = self.nodes.len();
-        self.nodes.push(Node { low, high, range: range.clone(), halves: None });
+        self.nodes.push(Node { low, high, range: [range.start as u32, range.end as u32], halves: [0; 2] });
         if range.len() > LEAF {
             let extent = |axis: &usize| high[*axis] - low[*axis];
             let axis = (0..3).max_by(|a, b| extent(a).total_cmp(&extent(b))).unwrap_or(0);
             let middle = range.len() / 2;
             self.candidates[range.clone()].select_nth_unstable_by(middle, |a, b| a.1[axis].total_cmp(&b.1[axis]));
             let middle = range.start + middle;
-            let halves = [self.build(range.start..middle), self.build(middle..range.end)];
-            self.nodes[index].halves = Some(halves);
+            self.nodes[index].halves = [self.build(range.start..middle), self.build(middle..range.end)];
         }
-        index
+        index as u32
     }
 
     fn inside(&self, points: &Points, edge: [u32; 2], margin: f64) -> Vec<u32> {
         let (a, b) = (points.approximate(edge[0]), points.approximate(edge[1]));
+        let is_near = |place: &[f64; 3]| {
+            (0..3).all(|axis| {
+                place[axis] >= a[axis].min(b[axis]) - margin && place[axis] <= a[axis].max(b[axis]) + margin
+            })
+        };
         let (mut found, mut stack) = (Vec::new(), Vec::from([0]));
         while let Some(index) = stack.pop() {
-            let node = &self.nodes[index];
+            let node = &self.nodes[index as usize];
             if !touches(node, a, b, margin) {
                 continue;
             }
-            match node.halves {
-                Some(halves) => stack.extend(halves),
-                None => {
-                    let candidates = self.candidates[node.range.clone()].iter().map(|(vertex, _)| *vertex);
-                    found.extend(candidates.filter(|vertex| points.is_strictly_inside(*vertex, edge)));
-                }
+            if node.halves != [0; 2] {
+                stack.extend(node.halves);
+                continue;
             }
+            let candidates = self.candidates[node.range[0] as usize..node.range[1] as usize].iter();
+            let near = candidates.filter(|(_, place)| is_near(place)).map(|(vertex, _)| *vertex);
+            found.extend(near.filter(|vertex| points.is_strictly_inside(*vertex, edge)));
         }
         found
     }
