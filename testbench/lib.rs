@@ -6,14 +6,18 @@
 //! | [`binding`] | what a block brings: device, golden model, stimulus; the list of all blocks |
 //! | [`stepped`], [`device`] | a block under a clock that is stepped by hand; the same with its type hidden |
 //! | [`scoreboard`] | idle cycles, backpressure, comparison beat by beat |
+//! | [`check`] | block against golden model, and every engine against the block, with replay and waveform |
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
+//! | [`remesh`] | whole grids through the golden models, the blocks, or their Verilog |
 //! | `<block>` | the binding of that block |
 
 pub mod binding;
+pub mod check;
 pub mod cosim;
 pub mod device;
 pub mod probe;
+pub mod remesh;
 pub mod remesher;
 pub mod scoreboard;
 pub mod stepped;
