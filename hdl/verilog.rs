@@ -1,5 +1,79 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Verilog of a block.
+//! SystemVerilog of a block, or a sentence that says why there is none.
+//!
+//! ```
+//! use relief_hdl::prelude::*;
+//! use relief_hdl::verilog::emit;
+//!
+//! #[derive(LogicBlock, Default)]
+//! struct Average {
+//!     in_a: Input<S<8>>,
+//!     in_b: Input<S<8>>,
+//!     out_mean: Output<S<8>>,
+//!     sum: Wire<S<9>>,
+//! }
+//! impl Logic for Average {
+//!     #[hdl_gen]
+//!     fn update(&mut self) {
+//!         self.sum.next = bit_cast_to::<S<9>>(self.in_a.val()) + bit_cast_to::<S<9>>(self.in_b.val());
+//!         self.out_mean.next = bit_cast_to::<S<8>>(self.sum.val() >> 1);
+//!     }
+//!     fn timing(&self) -> Vec<TimingInfo> {
+//!         module_name("average")
+//!     }
+//! }
+//! let emission = emit(&Average::default())?;
+//! assert_eq!(emission.top, "relief_average");
+//! assert!(emission.top_module().source.contains("assign sum = s8_to_s9(in_a) + s8_to_s9(in_b);"));
+//! # Ok::<(), relief_hdl::verilog::EmitError>(())
+//! ```
+//!
+//! # Why a back-end of our own
+//! rust-hdl's printer writes a kernel's operators into Verilog as they stand. Verilog computes an operation at the
+//! widest width around it and as unsigned when anything around it is; so `bit_cast(a + b)` keeps a carry that Rust drops,
+//! fields compare as unsigned, and `a & b == b` groups in another way. None of this is reported. This back-end reads the
+//! same syntax tree and gives every expression a type and every operand a form that its surroundings cannot change.
+//!
+//! # The syntax tree's traps, and how each is closed
+//! - A literal has no width, a cast only a number: types flow up from the signals and down into literals
+//!   ([`Synth::bits`](rust_hdl_core::synth::Synth::bits) of our types also carries sign and lanes). Unknown is an error.
+//! - Context-determined width and sign: sums are printed as `{a + b}`, signed ones as `$signed({a + b})`, and changes of
+//!   width, lanes and dynamic indexes as small functions; only a right side whose width is the target's goes bare.
+//! - `.val()`, `.into()` and `.index()` vanish: a dynamic index must be a plain signal, since behind `.index()` Rust
+//!   computes in 64 bits; and a loop variable must not be called like a signal.
+//! - Match guards, the `=` of `..=`, `cfg` on statements and arguments behind the first of a function vanish, too:
+//!   [`scan_kernels`] looks for them in the sources, and a test runs it over this crate.
+//! - A name in a pattern may be a variant or a binding: only `Enum::Variant`, `true`, `false` and `_` are taken.
+//! - Statements are ordered in Rust and concurrent in Verilog: a kernel is split into pieces ([the order is
+//!   checked](EmitError::AssignedAfterRead), so that the pieces need none), and no piece feeds itself, so that no
+//!   simulator sees a combinational loop where the hardware has none.
+//! - Array elements of a constant loop are unrolled under the names that `Probe` gives them.
+//!
+//! # What a kernel may contain
+//! 1. Fields: `clock: Input<ClockReset>` (this name; the only clock), [`Input`](crate::signal::Input),
+//!    [`Output`](crate::signal::Output), [`Wire`](crate::signal::Wire), `Constant`, blocks and primitives, and arrays of
+//!    them. No stock `Bits`, `Signed`, `Signal<InOut, _>`, interface, `link`, black box or wrapper. Names are lower-case
+//!    and no keywords; `x_y` clashes with the port `y` of a child `x`.
+//! 2. A name: `timing()` returns [`module_name`]; parameters that change the text belong into it.
+//! 3. Every output, and every input of a child, is assigned on every path (default first, then `if` and `match`); wires
+//!    are written before they are read and not afterwards; own inputs are never written. Only the `enable` of a
+//!    primitive may stay undriven. A child's clock is `self.clock.val()`, unconditionally.
+//! 4. Both operands of an operation have one type; widths and signs change by
+//!    [`bit_cast_to`](crate::signal::bit_cast_to) only. A literal must fit its type and not decide a comparison alone.
+//! 5. Indexes of `get_bit`, `get_bits` and `replace_bit` are literals, loop variables, or `signal.val().index()`;
+//!    indexes of arrays are literals and loop variables. Const generics are for types and loop bounds; as values they go
+//!    into a `Constant`. Inside a `for`, an argument of `bit_cast_to` cannot mention the loop variable (the macro
+//!    evaluates it outside): cast into a wire before the loop.
+//! 6. Shift amounts are literals or unsigned of less than 32 bits. An `if` or `match` needs something that changes: a
+//!    choice between constants is made in the constructor.
+//! 7. No match guards, `..=`, `#[cfg]` on statements, or `.index()` in arithmetic.
+//! 8. A signal that nothing reads as a whole is listed in the module's `unused`; an index that is out of range panics in Rust and
+//!    is undefined in hardware.
+//!
+//! # Primitives
+//! A `Verilog::Custom` text that begins with [`INLINE`](crate::primitives::INLINE) is pasted into the parent, with `@`
+//! before a name replaced by `<instance>_`; lines `//hex <file> <word>` become memory files. Such a primitive must not
+//! pass an input on to an output within a cycle. Other custom texts are whole module bodies.
 
 mod analysis;
 mod body;
@@ -18,7 +92,7 @@ mod types;
 mod unroll;
 
 pub use error::EmitError;
-pub use guards::{GuardFinding, scan_match_guards};
+pub use guards::{GuardFinding, scan_kernels, scan_match_guards};
 
 use rust_hdl_core::ast::Verilog;
 use rust_hdl_core::block::Block;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Emitted text of small blocks: accepted without a warning by every tool, with the cells that it should have.
 
+mod common;
+
+use common::{Bench, Random, Rng, folder, lint, replay, run, tool};
 use relief_hdl::prelude::*;
-use relief_hdl::verilog::emit;
+use relief_hdl::verilog::{Direction, emit};
 
 #[derive(Copy, Clone, PartialEq, Debug, LogicState)]
 enum State {
@@ -128,7 +131,80 @@ impl Logic for Tree {
 }
 
 #[test]
-fn smoke() {
-    let e = emit(&Tree::default()).unwrap();
-    e.write("/tmp/verilog-smoke").unwrap();
+fn modules_are_named_once_and_in_order() {
+    let emission = emit(&Tree::default()).unwrap();
+    let names: Vec<&str> = emission.modules.iter().map(|m| m.name.as_str()).collect();
+    assert_eq!(names, ["relief_leaf", "relief_tree"], "two leaves of one body are one module");
+    assert_eq!(emission.top, "relief_tree");
+    let ports = &emission.top_module().ports;
+    assert_eq!(ports[0].name, "clock");
+    assert_eq!(ports[1].name, "reset");
+    let vertex = ports.iter().find(|p| p.name == "out_vertex_1").unwrap();
+    assert_eq!((vertex.bits, vertex.lanes, vertex.signed, vertex.direction), (48, 3, true, Direction::Output));
+    for module in &emission.modules {
+        assert!(!module.source.replace("$signed", "").replace("$unsigned", "").contains('$'), "{}", module.source);
+    }
+}
+
+#[test]
+fn text_reads_as_the_kernel_does() {
+    let emission = emit(&Tree::default()).unwrap();
+    let text = &emission.top_module().source;
+    for line in [
+        "    input  wire  [35:0] in_vertex,          // 3 x signed 12",
+        "    localparam [1:0] State_Run = 2'd1;",
+        "    localparam [3:0] limit = 4'd11; // unsigned 4",
+        "    assign step = count_q + 4'd1;",
+        "    assign memory_read_address = s18_to_u10($signed({in_a - in_b}));",
+        "                if (count_q == limit) begin",
+        "        else state_q <= state_d;",
+    ] {
+        assert!(text.contains(&format!("{line}\n")), "{line}\nis not in\n{text}");
+    }
+}
+
+#[test]
+fn clocked_blocks_agree_in_three_simulators() {
+    let mut block = Tree::default();
+    let mut bench = Bench::new(&block);
+    lint("emission_lint", &bench.emission, &[]);
+    let mut rng = Rng(3);
+    // Memory and product have no reset: every word is written before anything is compared.
+    bench.skip = 1100;
+    for row in 0..4000usize {
+        let filling = row < bench.skip;
+        block.clock.next.reset = row < 2 || rng.below(100) == 0;
+        block.in_valid.next = filling || bool::random(&mut rng);
+        block.in_vertex.next = Lanes::random(&mut rng);
+        block.in_a.next = S::random(&mut rng);
+        block.in_b.next = if filling { S::new((row as i64 & 1023) << 3) } else { S::random(&mut rng) };
+        bench.record(&mut block);
+        for level in [true, false] {
+            block.clock.next.clk = level;
+            common::settle(&mut block);
+        }
+    }
+    assert_eq!(replay("emission", &[bench]), 2900);
+}
+
+#[test]
+fn synthesis_finds_the_memory_and_the_multiplier() {
+    if !tool("yosys", "yosys") {
+        return;
+    }
+    let folder = folder("emission_yosys");
+    let emission = emit(&Tree::default()).unwrap();
+    emission.write(&folder).unwrap();
+    assert_eq!(std::fs::read_to_string(folder.join("filelist.f")).unwrap(), "relief_leaf.sv\nrelief_tree.sv\n");
+    let script = "read_verilog -sv relief_leaf.sv relief_tree.sv; synth_ecp5 -top relief_tree; check -assert; stat";
+    let text = run(&folder, "yosys", &["-p", script]);
+    // The last statistics are those of the mapped design.
+    let statistics = text.rsplit("design hierarchy").next().unwrap();
+    let count = |cell: &str| -> usize {
+        let line = statistics.lines().find(|l| l.split_whitespace().next() == Some(cell));
+        line.and_then(|l| l.split_whitespace().nth(1)).map_or(0, |n| n.parse().unwrap())
+    };
+    assert_eq!(count("DP16KD"), 1, "{statistics}");
+    assert_eq!(count("MULT18X18D"), 1, "{statistics}");
+    assert!(!text.contains("Latch inferred"), "{text}");
 }
