@@ -12,7 +12,7 @@ mod register;
 pub use divider::Divider;
 pub use memory::{Ram, Rom};
 pub use multiplier::Multiplier;
-pub use register::Register;
+pub use register::{DataRegister, Register};
 
 /// First line of the text of a [`Verilog::Custom`](rust_hdl_core::ast::Verilog) that is pasted into its parent.
 pub const INLINE: &str = "//inline\n";

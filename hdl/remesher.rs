@@ -90,6 +90,7 @@ impl<
 {
     /// A remesher for a strip unit whose column memory holds `depth` vertices.
     pub fn new(depth: usize) -> Self {
+        assert!(T == N + 3 && A == 2 * N + 3, "T is N + 3 and A is 2 N + 3");
         Self {
             clock: Input::default(),
             in_valid: Input::default(),

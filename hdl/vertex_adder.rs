@@ -14,7 +14,7 @@
 use crate::prelude::*;
 
 /// Vertex adder of `L` components of `W` bits.
-#[derive(Clone, Debug, LogicBlock)]
+#[derive(Clone, Debug, Default, LogicBlock)]
 pub struct VertexAdder<const L: usize, const W: usize> {
     /// Clock and reset.
     pub clock: Input<ClockReset>,
@@ -33,31 +33,13 @@ pub struct VertexAdder<const L: usize, const W: usize> {
     /// Sum.
     pub out_vertex: Output<Lanes<L, W>>,
     full: Register<Bit>,
-    sum: Register<Lanes<L, W>>,
+    sum: DataRegister<Lanes<L, W>>,
     go: Wire<Bit>,
 }
 
 impl<const L: usize, const W: usize> VertexAdder<L, W> {
     /// Cycles from operands to sum.
     pub const LATENCY: usize = 1;
-}
-
-impl<const L: usize, const W: usize> Default for VertexAdder<L, W> {
-    fn default() -> Self {
-        Self {
-            clock: Input::default(),
-            in_valid: Input::default(),
-            in_ready: Output::default(),
-            in_vertex: Input::default(),
-            in_difference: Input::default(),
-            out_valid: Output::default(),
-            out_ready: Input::default(),
-            out_vertex: Output::default(),
-            full: Register::default(),
-            sum: Register::data(),
-            go: Wire::default(),
-        }
-    }
 }
 
 impl<const L: usize, const W: usize> Logic for VertexAdder<L, W> {

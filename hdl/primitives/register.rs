@@ -10,10 +10,10 @@ use crate::primitives::INLINE;
 use crate::signal::{ClockReset, Input, Latch, Output};
 use rust_hdl_core::prelude::*;
 
-/// A register of any signal type. [`Register::default`] is reset to zero, [`Register::new`] to a value,
-/// [`Register::data`] is never reset: for payload whose valid flag is.
+/// A register of any signal type. [`Register::default`] is reset to zero, [`Register::new`] to a value; a
+/// [`DataRegister`] is never reset.
 #[derive(Clone, Debug)]
-pub struct Register<T: Synth> {
+pub struct Register<T: Synth, const RESET: bool = true> {
     /// Clock and reset.
     pub clock: Input<ClockReset>,
     /// Load enable; true unless driven.
@@ -22,46 +22,50 @@ pub struct Register<T: Synth> {
     pub d: Input<T>,
     /// Present value.
     pub q: Output<T>,
-    reset_value: Option<Constant<T>>,
+    reset_value: Constant<T>,
     clock_was_high: bool,
     changed: bool,
 }
 
-impl<T: Synth> Default for Register<T> {
+/// A register without reset, for payload whose valid flag is reset.
+pub type DataRegister<T> = Register<T, false>;
+
+impl<T: Synth, const RESET: bool> Default for Register<T, RESET> {
     fn default() -> Self {
-        Self::new(T::default())
+        Self::with(T::default())
     }
 }
 
-impl<T: Synth> Register<T> {
-    fn with(initial: T, reset_value: Option<Constant<T>>) -> Self {
+impl<T: Synth, const RESET: bool> Register<T, RESET> {
+    fn with(initial: T) -> Self {
         Self {
             clock: Input::default(),
             enable: Input::new(true),
             d: Input::new(initial),
             q: Output::new(initial),
-            reset_value,
+            reset_value: Constant::new(initial),
             clock_was_high: false,
             changed: false,
         }
     }
+}
+
+impl<T: Synth> Register<T> {
     /// A register that the reset sets to `initial`.
     pub fn new(initial: T) -> Self {
-        Self::with(initial, Some(Constant::new(initial)))
-    }
-    /// A register without reset.
-    pub fn data() -> Self {
-        Self::with(T::default(), None)
+        Self::with(initial)
     }
 }
 
-impl<T: Synth> Latch for Register<T> {
+impl<T: Synth, const RESET: bool> Latch for Register<T, RESET> {
     #[inline(always)]
     fn latch(&mut self, reset: bool) -> bool {
-        let next = match (&self.reset_value, reset) {
-            (Some(value), true) => value.val(),
-            _ if self.enable.next => self.d.next,
-            _ => self.q.next,
+        let next = if RESET && reset {
+            self.reset_value.val()
+        } else if self.enable.next {
+            self.d.next
+        } else {
+            self.q.next
         };
         let changed = next != self.q.next;
         self.q.next = next;
@@ -69,7 +73,7 @@ impl<T: Synth> Latch for Register<T> {
     }
 }
 
-impl<T: Synth> Logic for Register<T> {
+impl<T: Synth, const RESET: bool> Logic for Register<T, RESET> {
     #[inline(always)]
     fn update(&mut self) {
         let ClockReset { clk, reset } = self.clock.next;
@@ -80,7 +84,7 @@ impl<T: Synth> Logic for Register<T> {
         self.q.connect();
     }
     fn hdl(&self) -> Verilog {
-        let body = if self.reset_value.is_some() {
+        let body = if RESET {
             "always @(posedge clock) begin\n    if (reset) @q <= @initial;\n    else if (@enable) @q <= @d;\nend\n"
         } else {
             "always @(posedge clock) begin\n    if (@enable) @q <= @d;\nend\n"
@@ -89,7 +93,7 @@ impl<T: Synth> Logic for Register<T> {
     }
 }
 
-impl<T: Synth> Block for Register<T> {
+impl<T: Synth, const RESET: bool> Block for Register<T, RESET> {
     fn connect_all(&mut self) {
         self.connect();
     }
@@ -107,8 +111,8 @@ impl<T: Synth> Block for Register<T> {
         self.enable.accept("enable", probe);
         self.d.accept("d", probe);
         self.q.accept("q", probe);
-        if let Some(value) = &self.reset_value {
-            value.accept("initial", probe);
+        if RESET {
+            self.reset_value.accept("initial", probe);
         }
         probe.visit_end_scope(name, self);
     }

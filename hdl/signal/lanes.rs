@@ -37,11 +37,7 @@ impl<const L: usize, const W: usize> Lanes<L, W> {
     }
     #[inline(always)]
     fn zip(self, other: Self, f: impl Fn(i64, i64) -> i64) -> Self {
-        let mut out = [0; L];
-        for k in 0..L {
-            out[k] = S::<W>::new(f(self.0[k], other.0[k])).get();
-        }
-        Self(out)
+        Self(std::array::from_fn(|k| S::<W>::new(f(self.0[k], other.0[k])).get()))
     }
 }
 
