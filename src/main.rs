@@ -20,11 +20,13 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     CheckMesh(cli::check_mesh::Arguments),
+    Remesh(cli::remesh::Arguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),
+        Command::Remesh(arguments) => cli::remesh::run(&arguments),
     };
     match outcome {
         Ok(outcome) => outcome.into(),
