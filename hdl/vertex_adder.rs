@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Adds a difference vertex to a vertex, component by component, all components in one cycle.
 //!
-//! out[i] = vertex[i] + difference[i]  (mod 2^W): wraps, and is right whenever the true value fits
+//! `out[i] = vertex[i] + difference[i]  (mod 2^W)`: wraps, and is right whenever the true value fits
 //!
 //! | port          | format       | range |   Latency 1, interval 1
 //! | in_vertex     | L x signed W | whole |   Golden: models::vertex_adder::golden

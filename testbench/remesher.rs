@@ -121,10 +121,10 @@ impl Binding for RemesherBinding {
         "sweeps base triangles into the steps of one-voxel triangle strips"
     }
     fn latency(&self) -> &'static str {
-        "3 W + 26 at most"
+        "max(3 W + 15, 2 W + 4 L + 22) + 6 at most"
     }
     fn interval(&self) -> &'static str {
-        "one step a cycle; base triangles 3 W + 22 at most"
+        "one step a cycle; max(3 W, 2 W + 4 L + 7) + 18 a base triangle of few steps"
     }
     fn error(&self) -> &'static str {
         "edge n 2^-(g+1), interior (i+j) 2^-(g+1), and 1/2 of the rounding"
