@@ -29,9 +29,11 @@ use std::{
 const HARNESS: &str = include_str!("harness.cpp");
 
 /// Flags of the compiler: those of Verilator's make file, of which the warnings concern Verilator's authors.
-const COMPILER_FLAGS: [&str; 8] = [
+const COMPILER_FLAGS: [&str; 9] = [
     "-std=gnu++17",
     "-O2",
+    // Verilator multiplies signed words and lets them overflow, which C++ leaves undefined.
+    "-fwrapv",
     "-faligned-new",
     "-fcf-protection=none",
     "-w",
