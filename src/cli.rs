@@ -10,9 +10,14 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use relief_models::mesh::Progress;
 
+pub mod blocks;
+pub mod check;
 pub mod check_mesh;
+pub mod emit;
 mod output;
 pub mod remesh;
+mod select;
+pub mod sim;
 
 /// How a subcommand ended that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

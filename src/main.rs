@@ -19,13 +19,21 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Blocks(cli::blocks::Arguments),
+    Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
+    Emit(cli::emit::Arguments),
+    Sim(cli::sim::Arguments),
     Remesh(cli::remesh::Arguments),
 }
 
 fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
+        Command::Blocks(arguments) => cli::blocks::run(&arguments),
+        Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),
+        Command::Emit(arguments) => cli::emit::run(&arguments),
+        Command::Sim(arguments) => cli::sim::run(&arguments),
         Command::Remesh(arguments) => cli::remesh::run(&arguments),
     };
     match outcome {

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief sim`: one block, one stimulus, one engine; counts, verdict, waveforms.
+
+use std::io::stdout;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use relief_hdl::verilog::PortInfo;
+use relief_hdl::widths::WidthSet;
+use relief_models::mesh::Progress;
+use relief_testbench::binding::{Beat, Binding};
+use relief_testbench::check::{
+    Engine, Followers, Play, Recording, Simulators, emission, emitted, play, replace, sibling,
+};
+use relief_testbench::cosim::{Design, Dump, PowerUp};
+use relief_testbench::device::Layout;
+use relief_testbench::scoreboard::{Pattern, Until};
+use relief_waves::{Drawing, Group, Item, Label, Scope, Signal, SignalTree, VcdRecorder, draw, gtkw, read};
+
+use super::{Meter, Outcome, Result, select, write_all};
+
+/// Play one block on random beats or on those of a file, and compare it with its golden model
+///
+/// A stimulus file holds one beat a line: integers with blanks between them; `#` begins a comment. `relief blocks` says
+/// what the integers are. rust-hdl always runs; with another engine, that engine is compared with it in every cycle.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The block
+    block: String,
+    /// Play N random beats; 1000 unless there is a stimulus file
+    #[arg(long, value_name = "N", conflicts_with = "stimulus")]
+    random: Option<u64>,
+    /// Seed of random beats, idle cycles and backpressure
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+    /// Play the beats of this file
+    #[arg(long, value_name = "FILE")]
+    stimulus: Option<PathBuf>,
+    /// rust, verilator or icarus
+    #[arg(long, value_name = "ENGINE", default_value = "rust")]
+    engine: Engine,
+    /// Width set
+    #[arg(long, value_name = "NAME")]
+    param: Option<String>,
+    /// Cycles in which no beat is offered, in percent
+    #[arg(long, value_name = "P", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=99))]
+    idle: u8,
+    /// Cycles in which no beat is taken, in percent
+    #[arg(long, value_name = "P", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=99))]
+    stall: u8,
+    /// Write a waveform, and beside it a save file for GTKWave
+    #[arg(long, value_name = "FILE")]
+    vcd: Option<PathBuf>,
+    /// Draw the input and the output stream
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// Cycles of the waveform and the drawing, counted from the reset; B is left out
+    #[arg(long, value_name = "A..B", default_value = "0..64", value_parser = window)]
+    cycles: Range<u64>,
+    /// Play the emitted design of this folder in the place of a fresh one
+    #[arg(long, value_name = "DIR")]
+    sources: Option<PathBuf>,
+}
+
+/// Icarus takes its stimulus whole, so this bounds the memory.
+const ICARUS_MOST: u64 = 100_000;
+
+/// More cycles make no picture.
+const DRAWN_MOST: u64 = 500;
+
+fn window(text: &str) -> std::result::Result<Range<u64>, String> {
+    let parse = || {
+        let (start, end) = text.split_once("..")?;
+        Some(start.parse::<u64>().ok()?..end.parse::<u64>().ok()?)
+    };
+    match parse() {
+        Some(window) if window.start < window.end => Ok(window),
+        _ => Err("a window is A..B with A below B, such as 100..164".into()),
+    }
+}
+
+/// Plays and reports.
+pub fn run(arguments: &Arguments) -> Result {
+    let block = select::block(&arguments.block)?;
+    let set = select::width_set(arguments.param.as_deref())?;
+    let (engine, window) = (arguments.engine, &arguments.cycles);
+    if let Some(missing) = engine.missing() {
+        return Err(missing.into());
+    }
+    if engine == Engine::Icarus && arguments.vcd.is_some() {
+        return Err("Icarus writes no waveform here: give --engine rust or --engine verilator with --vcd".into());
+    }
+    if arguments.svg.is_some() && window.end - window.start > DRAWN_MOST {
+        return Err(format!(
+            "--cycles holds {} cycles, and a drawing at most {DRAWN_MOST}: give a smaller window with --svg",
+            window.end - window.start
+        )
+        .into());
+    }
+    let pattern = Pattern { idle: arguments.idle, stall: arguments.stall, seed: arguments.seed };
+    let (run, vectors, what) = match &arguments.stimulus {
+        Some(path) => {
+            let beats = stimulus(block, set, path)?;
+            let vectors = beats.len() as u64;
+            let source = Box::new(beats.into_iter());
+            let run = Play { binding: block, set, pattern, source, until: Until::Exhausted };
+            (run, vectors, format!("{}", path.display()))
+        }
+        None => {
+            let vectors = arguments.random.unwrap_or(1000);
+            (Play::random(block, set, pattern, vectors), vectors, format!("random, seed {}", arguments.seed))
+        }
+    };
+    if vectors == 0 {
+        return Err("the stimulus has no beat, and a check of nothing would agree: give 1 or more".into());
+    }
+    if engine == Engine::Icarus && vectors > ICARUS_MOST {
+        return Err(format!("{vectors} vectors are too many for Icarus: give at most {ICARUS_MOST}").into());
+    }
+
+    let traced = engine == Engine::Verilator && arguments.vcd.is_some();
+    let emitted = match engine {
+        Engine::Rust => None,
+        _ => Some(emitted(block, set, arguments.sources.as_deref())?),
+    };
+    let simulators = match &emitted {
+        Some(emitted) => Simulators::build(&emitted.design, &[engine], traced)?,
+        None => Simulators { verilator: None, icarus: None },
+    };
+    // Verilator counts from power-up, and is in reset for the first cycles.
+    let reset = relief_testbench::check::RESET_CYCLES as u64;
+    let dump = arguments.vcd.as_ref().filter(|_| traced).map(|path| Dump {
+        path: sibling(path),
+        window: window.start.saturating_add(reset)..window.end.saturating_add(reset),
+    });
+    let followers = Followers {
+        verilator: match &simulators.verilator {
+            Some(model) => Some(model.start_with(PowerUp::Random(arguments.seed as u32), dump.as_ref())?),
+            None => None,
+        },
+        icarus: simulators.icarus.as_ref(),
+    };
+    let mut recording = match &arguments.vcd {
+        Some(path) if !traced => Some(Recording::new(block, set, path, window.clone())?),
+        _ => None,
+    };
+    let mut streams = arguments.svg.as_ref().map(|_| Streams::new(block, set, window.clone())).transpose()?;
+
+    let meter = Meter::new();
+    meter.phase(block.name(), vectors);
+    let played = play(run, followers, &mut |done| meter.advance(done), &mut |device, inputs, outputs| {
+        if let Some(recording) = &mut recording {
+            recording.sample(device)?;
+        }
+        match &mut streams {
+            Some(streams) => Ok(streams.sample(device.cycle(), inputs, outputs)?),
+            None => Ok(()),
+        }
+    });
+    meter.finish();
+    let played = match played {
+        Ok(played) => played,
+        Err(error) => {
+            dump.iter().for_each(|dump| drop(std::fs::remove_file(&dump.path)));
+            return Err(error.into());
+        }
+    };
+
+    let counts = played.counts;
+    let (name, idle, stall) = (block.name(), pattern.idle, pattern.stall);
+    let mut text = format!(
+        "{name}, width set {}, engine {engine}, {what}, idle {idle} %, stall {stall} %\n{} vectors, {} beats, {} cycles: ",
+        set.name, counts.accepted, counts.checked, counts.cycles
+    );
+    text += &match &played.mismatch {
+        None => "agreed with the golden model\n".to_string(),
+        Some((engine, mismatch)) => format!("MISMATCH in {engine}: {mismatch}\n"),
+    };
+    write_all(stdout(), &text)?;
+
+    let short = || {
+        let Range { start, end } = window;
+        format!("--cycles is {start}..{end}, and the run has only {} cycles: give a window within them", counts.cycles)
+    };
+    let reached = window.start < counts.cycles;
+    if let (Some(path), Some(dump)) = (&arguments.vcd, &dump) {
+        if !reached {
+            let _ = std::fs::remove_file(&dump.path);
+            return Err(short().into());
+        }
+        std::fs::rename(&dump.path, path).map_err(|cause| format!("writing `{}` failed: {cause}", path.display()))?;
+        if let Some(emitted) = &emitted {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            let tree = outer_ports(&emitted.design)?;
+            let text = gtkw(&tree, &Group::of_scopes(&tree), &file)?;
+            replace(&path.with_extension("gtkw"), text.as_bytes())?;
+        }
+    }
+    if let Some(recording) = recording
+        && recording.finish()?.is_none()
+    {
+        return Err(short().into());
+    }
+    if let (Some(path), Some(streams)) = (&arguments.svg, streams) {
+        let title = format!("{name}, {}, idle {idle} %, stall {stall} %", set.name);
+        match streams.finish(&title)? {
+            Some(picture) => replace(path, picture.as_bytes())?,
+            None => return Err(short().into()),
+        }
+    }
+    Ok(if played.mismatch.is_none() { Outcome::Agreed } else { Outcome::Mismatch })
+}
+
+/// The beats of a file: one a line, integers with blanks between them, `#` before a comment.
+fn stimulus(block: &dyn Binding, set: &WidthSet, path: &Path) -> std::result::Result<Vec<Beat>, String> {
+    let file = path.display();
+    let text = std::fs::read_to_string(path).map_err(|cause| format!("{file} cannot be read: {cause}"))?;
+    let mut beats = Vec::new();
+    for (number, line) in (1..).zip(text.lines()) {
+        let line = line.split('#').next().unwrap_or("");
+        if line.trim().is_empty() {
+            continue;
+        }
+        let fail = |what: String| {
+            let format = block.stimulus_format();
+            format!("{file}:{number}: {what}; a beat of {} at width set {} is {format}", block.name(), set.name)
+        };
+        let numbers = line
+            .split_whitespace()
+            .map(|word| word.parse::<i64>().map_err(|_| fail(format!("`{word}` is no integer of 64 bits"))));
+        let numbers = numbers.collect::<std::result::Result<Vec<_>, _>>()?;
+        beats.push(block.parse(set, &numbers).map_err(fail)?);
+    }
+    Ok(beats)
+}
+
+/// The ports as Verilator's waveform names them.
+fn outer_ports(design: &Design) -> std::result::Result<SignalTree, relief_waves::TreeError> {
+    let ports = design.ports.iter().map(|port| Item::Signal(Signal::unsigned(&port.name, port.bits)));
+    SignalTree::new(Scope { name: "TOP".into(), items: ports.collect() })
+}
+
+/// Records the ports alone, to be drawn.
+struct Streams {
+    recorder: VcdRecorder<std::fs::File>,
+    file: tempfile::NamedTempFile,
+    block: &'static str,
+    ports: Vec<PortInfo>,
+    inputs: usize,
+    words: Vec<u64>,
+    last: Option<u64>,
+    window: Range<u64>,
+}
+
+impl Streams {
+    fn new(
+        block: &'static dyn Binding,
+        set: &WidthSet,
+        window: Range<u64>,
+    ) -> std::result::Result<Self, Box<dyn std::error::Error>> {
+        let layout = Layout::of(block.device(set).as_ref());
+        let emission = emission(block, set)?;
+        let mut ports = Vec::new();
+        for (shape, _) in layout.inputs.iter().chain(&layout.outputs) {
+            // A lane count and a sign are known to the emission alone.
+            let known = emission.top_module().ports.iter().find(|port| port.name == shape.name);
+            ports.push(known.cloned().ok_or_else(|| format!("the emitted module has no port `{}`", shape.name))?);
+        }
+        let signals = ports.iter().map(|port| {
+            let PortInfo { name, bits, signed, lanes, .. } = port;
+            Item::Signal(match (lanes, signed) {
+                (0, false) => Signal::unsigned(name, *bits),
+                (0, true) => Signal::signed(name, *bits),
+                (lanes, _) => Signal::lanes(name, *lanes, bits / lanes),
+            })
+        });
+        let tree = SignalTree::new(Scope { name: block.name().into(), items: signals.collect() })?;
+        let file = tempfile::Builder::new().suffix(".vcd").tempfile()?;
+        let words = vec![0; layout.input_words + layout.output_words];
+        let recorder = VcdRecorder::new(file.reopen()?, tree, window.clone());
+        let inputs = layout.input_words;
+        Ok(Self { recorder, file, block: block.name(), ports, inputs, words, last: None, window })
+    }
+
+    fn sample(
+        &mut self,
+        cycle: u64,
+        inputs: &[u64],
+        outputs: &[u64],
+    ) -> std::result::Result<(), relief_waves::record::RecordError> {
+        self.last = Some(cycle);
+        if !self.recorder.wants(cycle) {
+            return Ok(());
+        }
+        self.words[..self.inputs].copy_from_slice(inputs);
+        self.words[self.inputs..].copy_from_slice(outputs);
+        self.recorder.sample(cycle, &self.words)
+    }
+
+    /// The picture, or nothing when the run ended before the window.
+    fn finish(self, title: &str) -> std::result::Result<Option<String>, Box<dyn std::error::Error>> {
+        let Self { recorder, file, block, ports, window, .. } = self;
+        let Some(held) = recorder.finish()? else { return Ok(None) };
+        let held = held.start..held.end.min(window.end);
+        let mut drawing = Drawing::new(title, held);
+        // Full names, as the output `error` might also end another name.
+        let full = |name: &str| format!("{block}.{name}");
+        for side in ["in", "out"] {
+            drawing = drawing.stream(&full(side), []);
+            for port in &ports {
+                let is_handshake = ["valid", "ready"].iter().any(|wire| port.name == format!("{side}_{wire}"));
+                let of_side = match side {
+                    "in" => port.name.starts_with("in_"),
+                    _ => !port.name.starts_with("in_"),
+                };
+                if is_handshake || !of_side || port.name == "out_ready" {
+                    continue;
+                }
+                let stream = Some(drawing.streams.len() - 1);
+                // Of a vertex the first component tells it from its neighbours.
+                let shown = if port.lanes <= 3 { port.lanes } else { 1 };
+                let rows = (0..shown).map(|lane| (full(&format!("{}[{lane}]", port.name)), Label::Signed));
+                let single = (port.lanes == 0).then(|| (full(&port.name), Label::Decimal));
+                for (signal, label) in rows.chain(single) {
+                    drawing.rows.push(match port.bits {
+                        1 => relief_waves::Row::Bit { signal, stream },
+                        _ => relief_waves::Row::Bus { signal, label, stream },
+                    });
+                }
+            }
+        }
+        Ok(Some(draw(&read(file.path())?, &drawing)?))
+    }
+}
