@@ -178,6 +178,12 @@ impl Chain {
         taken.then(|| self.commands.map(|at| outputs[at]))
     }
 
+    /// Whether the remesher takes a base triangle in the present cycle.
+    pub fn accepts(&self) -> bool {
+        let Stage { layout, inputs, outputs, .. } = &self.remesher;
+        inputs[layout.in_valid] == 1 && outputs[layout.in_ready] == 1
+    }
+
     /// Lets both blocks settle.
     fn settle(&mut self) {
         // The step port does not depend on its `ready`, so the remesher settles anew only where that has changed.
