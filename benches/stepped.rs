@@ -4,11 +4,11 @@
 //! The remesher sweeps random 64-pixel base triangles with nine components, back to back and without stalls.
 
 use divan::counter::ItemsCount;
+use relief_hdl::signal::Lanes;
 use relief_hdl::widths::{WIDTH_SETS, default};
 use relief_testbench::binding::{Random, find};
 use relief_testbench::scoreboard::{Pattern, Scoreboard, Until};
 use relief_testbench::stepped::Stepped;
-use relief_hdl::signal::Lanes;
 
 fn main() {
     divan::main();

@@ -122,7 +122,7 @@ pub enum CheckError {
         /// The block.
         block: String,
         /// Why.
-        cause: EmitError,
+        cause: Box<EmitError>,
     },
     /// The emitted module has other ports than the block.
     #[error("the module `{top}` has the {direction}s {got}, and the block has {expected}")]
@@ -312,7 +312,8 @@ pub struct Emitted {
 /// The Verilog of a block.
 pub fn emission(binding: &dyn Binding, set: &WidthSet) -> Result<Emission, CheckError> {
     let device = binding.device(set);
-    verilog::emit(device.block()).map_err(|cause| CheckError::Emit { block: binding.name().into(), cause })
+    verilog::emit(device.block())
+        .map_err(|cause| CheckError::Emit { block: binding.name().into(), cause: Box::new(cause) })
 }
 
 /// Emits a block into a folder of its own, or takes what `sources` holds; the ports must be those of the block.
@@ -323,7 +324,7 @@ pub fn emitted(binding: &dyn Binding, set: &WidthSet, sources: Option<&Path>) ->
         None => Some(tempfile::tempdir().map_err(io_error("making a temporary folder"))?),
     };
     if let Some(folder) = &folder {
-        let fail = |cause| CheckError::Emit { block: binding.name().into(), cause };
+        let fail = |cause| CheckError::Emit { block: binding.name().into(), cause: Box::new(cause) };
         emission.write(folder.path()).map_err(fail)?;
     }
     let ports = emission.top_module().ports.iter().map(|port| match port.direction {
@@ -419,7 +420,7 @@ pub fn play(
     let outcome = scoreboard.run(play.until, &mut |device, inputs, outputs| {
         let mut replay = replay.borrow_mut();
         let result = watch(device, inputs, outputs).and_then(|()| replay.cycle(inputs, outputs));
-        if replay.cycles % CHUNK as u64 == 0 {
+        if replay.cycles.is_multiple_of(CHUNK as u64) {
             progress(replay.accepted);
         }
         match result {

@@ -142,8 +142,11 @@ fn strip_unit_store_into_a_full_memory_is_an_error() {
 /// Four-bit counters and two places.
 type Tiny = Hardware<3, 32, 4>;
 
+/// Output beat: first, second, swap and last, and the four vertices.
+type OutputBeat = ([bool; 4], [Lanes<3, 32>; 4]);
+
 /// One cycle of the tiny unit with `step` at the input: whether it was taken, and the output beat.
-fn cycle(unit: &mut Stepped<Tiny>, step: Option<&Step>, ready: bool) -> (bool, Option<([bool; 4], [Lanes<3, 32>; 4])>) {
+fn cycle(unit: &mut Stepped<Tiny>, step: Option<&Step>, ready: bool) -> (bool, Option<OutputBeat>) {
     let block = unit.block_mut();
     block.out_ready.next = ready;
     block.in_valid.next = step.is_some();
