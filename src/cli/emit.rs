@@ -162,8 +162,8 @@ const BENCH: &str = r#"// SPDX-License-Identifier: MIT OR Apache-2.0
 // Plays in.hex into @TOP@ and compares what comes with out.hex, under random idle cycles and backpressure.
 // Written by `relief emit` (width set @SET@, seed @SEED@); needs no Rust. In this folder:
 //
-//   iverilog -g2012 -o tb.vvp -f filelist.f @TOP@_tb.sv && vvp -n tb.vvp
-//   verilator --binary --timing -Wno-fatal --top-module @TOP@_tb -f filelist.f @TOP@_tb.sv && obj_dir/V@TOP@_tb
+//   $ iverilog -g2012 -o tb.vvp -f filelist.f @TOP@_tb.sv && vvp -n tb.vvp
+//   $ verilator --binary --timing -Wno-fatal --top-module @TOP@_tb -f filelist.f @TOP@_tb.sv && obj_dir/V@TOP@_tb
 //
 // Options of both runs: +idle=P +stall=P (percent of cycles), +seed=N (of both). Ends with PASS or FAIL and the counts;
 // after FAIL the exit code is not 0.
