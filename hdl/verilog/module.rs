@@ -47,10 +47,14 @@ pub(super) fn module(scope: &Scope, name: &str, instances: &[Option<&Module>]) -
     let mut printer = Printer { symbols: &symbols, functions: Functions::default(), compares_constants: false };
     let (mut logic, moving) = (String::new(), moving(&symbols, &groups));
     for group in &groups {
-        let text = printer.group(group);
+        let mut text = printer.group(group);
         if text.contains(WITH_CALLS) && group.targets.is_disjoint(&moving) {
             let signal = group.targets.first().map_or("", |k| &symbols.list[*k].name);
             return refuse(&format!("a choice between constants for `{signal}`"), "hold the result in a `Constant`");
+        }
+        if !group.targets.is_disjoint(&moving) {
+            // Icarus 11 may never settle a module that has groups of both kinds.
+            text = text.replacen("    always_comb begin", &format!("    {WITH_CALLS} begin"), 1);
         }
         logic += &text;
     }

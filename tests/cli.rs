@@ -1,0 +1,503 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief blocks`, `check`, `sim` and `emit` as a program, and what they write as other tools see it.
+
+use relief_hdl::widths::{WIDTH_SETS, WidthSet};
+use relief_testbench::binding::{BLOCKS, Binding};
+use relief_testbench::check::emitted;
+use relief_testbench::cosim::{iverilog_accepts, tools, verilator_lint, yosys_synth_ecp5};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const NAMES: [&str; 3] = ["vertex_adder", "strip_unit", "remesher"];
+
+/// Exit code, stdout and stderr.
+fn finish(command: &mut Command) -> (Option<i32>, String, String) {
+    let output = command.output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn relief(arguments: &[&str]) -> (Option<i32>, String, String) {
+    finish(Command::new(env!("CARGO_BIN_EXE_relief")).args(arguments))
+}
+
+fn path(folder: &Path, name: &str) -> String {
+    folder.join(name).to_str().unwrap().to_owned()
+}
+
+/// Every file below a folder.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let entry = entry.unwrap();
+        let name = entry.file_name().into_string().unwrap();
+        if entry.path().is_dir() {
+            found.extend(files(&entry.path()).into_iter().map(|(inner, bytes)| (format!("{name}/{inner}"), bytes)));
+        } else {
+            found.insert(name, fs::read(entry.path()).unwrap());
+        }
+    }
+    found
+}
+
+/// Builds and runs the emitted test bench of a block as its head says; no code when it cannot be built.
+fn run_bench(folder: &Path, block: &str, options: &[&str]) -> (Option<i32>, String) {
+    let bench = format!("relief_{block}_tb.sv");
+    let mut build = Command::new("iverilog");
+    build.args(["-g2012", "-o", "tb.vvp", "-f", "filelist.f", &bench]).current_dir(folder);
+    let (code, stdout, stderr) = finish(&mut build);
+    if code != Some(0) {
+        return (None, format!("{stdout}{stderr}"));
+    }
+    // A design that never settles would fill the memory.
+    let bounded = "ulimit -v 4000000; exec timeout 60 vvp -n tb.vvp \"$@\"";
+    let mut run = Command::new("sh");
+    run.args(["-c", bounded, "vvp"]).args(options).current_dir(folder);
+    let (code, stdout, stderr) = finish(&mut run);
+    (code.or(Some(-1)), format!("{stdout}{stderr}"))
+}
+
+#[test]
+fn cli_blocks_lists_every_block() {
+    let (code, text, _) = relief(&["blocks"]);
+    assert_eq!(code, Some(0));
+    assert!(NAMES.iter().all(|name| text.contains(&format!("{name}: "))), "{text}");
+    let (code, json, _) = relief(&["blocks", "--json"]);
+    let json: serde_json::Value = serde_json::from_str(&json).unwrap();
+    let names: Vec<_> = json.as_array().unwrap().iter().map(|block| block["name"].as_str().unwrap()).collect();
+    assert_eq!((code, names), (Some(0), NAMES.to_vec()));
+    assert_eq!(json[0]["width_sets"].as_array().unwrap().len(), WIDTH_SETS.len());
+}
+
+#[test]
+fn cli_bad_input_exits_with_2_and_says_what_would_be_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = path(folder.path(), "out");
+    let stimulus = path(folder.path(), "stimulus.txt");
+    let late = path(folder.path(), "late.vcd");
+    fs::write(&stimulus, "# nothing\n 1 2 3\n").unwrap();
+    let block = "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher";
+    let set = "there is no width set `huge`; --param takes default, position, small, deep";
+    for (arguments, sentence) in [
+        (vec!["check", "adder"], block),
+        (vec!["sim", "adder"], block),
+        (vec!["emit", "adder", "--out", &out], block),
+        (vec!["check", "--param", "huge"], set),
+        (vec!["sim", "remesher", "--param", "huge"], set),
+        (vec!["emit", "--out", &out, "--param", "huge"], set),
+        (vec!["check", "--engine", "vcs"], "there is no engine `vcs`; the engines are rust, verilator, icarus, all"),
+        (vec!["sim", "remesher", "--engine", "all"], "there is no engine `all`"),
+        (vec!["check", "--vectors", "0"], "--vectors is 0, and a check of nothing would agree"),
+        (vec!["sim", "remesher", "--random", "0"], "the stimulus has no beat"),
+        (vec!["sim", "remesher", "--idle", "100"], "100 is not in 0..=99"),
+        (vec!["sim", "remesher", "--cycles", "9..9"], "a window is A..B with A below B, such as 100..164"),
+        (vec!["sim", "vertex_adder", "--stimulus", "/none"], "/none cannot be read: "),
+        (vec!["sim", "vertex_adder", "--stimulus", &stimulus], "stimulus.txt:2: the line has 3 numbers, and 18 make"),
+        (
+            vec!["sim", "vertex_adder", "--random", "5", "--cycles", "900..950", "--vcd", &late],
+            "--cycles is 900..950, and the run has only ",
+        ),
+    ] {
+        let (code, stdout, stderr) = relief(&arguments);
+        assert_eq!(code, Some(2), "{arguments:?}: {stdout}{stderr}");
+        assert!(stderr.contains(sentence), "{arguments:?}: {stderr}");
+    }
+    // Nothing was written, not even in part.
+    assert_eq!(files(folder.path()).into_keys().collect::<Vec<_>>(), ["stimulus.txt"]);
+}
+
+#[test]
+fn cli_sim_stimulus_file_says_where_it_is_wrong() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = path(folder.path(), "beats.txt");
+    let sim = |text: &str| {
+        fs::write(&file, text).unwrap();
+        relief(&["sim", "vertex_adder", "--param", "position", "--stimulus", &file])
+    };
+    let (code, stdout, stderr) = sim("1 2 3 4 5 6 # sum 5 7 9\n\n# nothing\n-35184372088832 0 0 -1 0 0\n");
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    assert!(stdout.contains("\n2 vectors, 2 beats, "), "{stdout}");
+    assert!(stdout.ends_with(": agreed with the golden model\n"), "{stdout}");
+    for (text, sentence) in [
+        ("1 2 3 4 5 6\n1 2 x 4 5 6\n", "beats.txt:2: `x` is no integer of 64 bits"),
+        ("1 2 3 4 5\n", "beats.txt:1: the line has 5 numbers, and 6 make a beat"),
+        (
+            "\n\n35184372088832 0 0 0 0 0\n",
+            "beats.txt:3: number 1 is 35184372088832, which does not fit -3518437208883",
+        ),
+        ("# nothing\n", "the stimulus has no beat"),
+    ] {
+        let (code, _, stderr) = sim(text);
+        assert_eq!(code, Some(2));
+        assert!(stderr.contains(sentence), "{stderr}");
+    }
+}
+
+#[test]
+fn cli_sim_draws_and_records_the_window() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (vcd, svg) = (path(folder.path(), "run.vcd"), path(folder.path(), "run.svg"));
+    let run = |engine: &str| {
+        relief(&[
+            "sim",
+            "strip_unit",
+            "--param",
+            "small",
+            "--random",
+            "200",
+            "--seed",
+            "7",
+            "--idle",
+            "20",
+            "--stall",
+            "30",
+            "--engine",
+            engine,
+            "--vcd",
+            &vcd,
+            "--svg",
+            &svg,
+            "--cycles",
+            "40..60",
+        ])
+    };
+    let (code, stdout, stderr) = run("rust");
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    assert_eq!(files(folder.path()).into_keys().collect::<Vec<_>>(), ["run.gtkw", "run.svg", "run.vcd"]);
+    let waves = relief_waves::read(&vcd)?;
+    assert_eq!(waves.cycles(), 40..60);
+    assert!(waves.trace("strip_unit.in_valid").is_some_and(|trace| trace.changes() > 1));
+    let from_rust = waves.trace("strip_unit.out_valid").cloned();
+    let picture = fs::read(&svg)?;
+    assert!(picture.starts_with(b"<svg"));
+    assert!(fs::read_to_string(path(folder.path(), "run.gtkw"))?.contains("strip_unit.in_valid"));
+
+    if !tools::require_all(&["verilator", "g++"], "the waveform of Verilator")? {
+        return Ok(());
+    }
+    let (code, stdout, stderr) = run("verilator");
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    assert_eq!(files(folder.path()).into_keys().collect::<Vec<_>>(), ["run.gtkw", "run.svg", "run.vcd"]);
+    let waves = relief_waves::read(&vcd)?;
+    let valid = waves.trace("TOP.out_valid").ok_or("Verilator's waveform has no TOP.out_valid")?;
+    let first = waves.cycles().start;
+    let from_rust = from_rust.ok_or("no trace")?;
+    // Verilator counts from power-up, two cycles of reset earlier.
+    let offset = (42 - first) as usize;
+    for cycle in 0..18 {
+        let high = |value: Option<&relief_waves::Value>| value.is_some_and(relief_waves::Value::is_high);
+        assert_eq!(high(valid.at_edge(cycle + offset)), high(from_rust.at_edge(cycle)), "cycle {cycle}");
+    }
+    // The picture shows the same streams, whoever else was compared.
+    assert_eq!(fs::read(&svg)?, picture.to_vec());
+    Ok(())
+}
+
+#[test]
+fn cli_check_leaves_out_what_is_not_installed_but_not_in_ci() {
+    let check = |ci: Option<&str>, engine: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_relief"));
+        command.args(["check", "vertex_adder", "--vectors", "100", "--engine", engine]).env("PATH", "/nowhere");
+        match ci {
+            Some(value) => command.env("CI", value),
+            None => command.env_remove("CI"),
+        };
+        finish(&mut command)
+    };
+    let (code, stdout, stderr) = check(None, "all");
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    assert!(stderr.contains("SKIPPED verilator: install the Debian package verilator\n"), "{stderr}");
+    assert!(stderr.contains("SKIPPED icarus: install the Debian package iverilog\n"), "{stderr}");
+    assert_eq!(stdout.lines().filter(|line| line.ends_with("  SKIPPED")).count(), 2);
+    for (ci, engine) in [(Some("true"), "all"), (None, "icarus")] {
+        let (code, _, stderr) = check(ci, engine);
+        assert_eq!(code, Some(2));
+        assert!(stderr.contains("is missing: install the Debian package "), "{stderr}");
+    }
+}
+
+#[test]
+fn cli_check_compares_every_block_in_every_engine() -> Outcome {
+    if !tools::require_all(&["verilator", "g++", "iverilog"], "the check in every engine")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let junit = path(folder.path(), "junit.xml");
+    let (code, stdout, stderr) =
+        relief(&["check", "--vectors", "200", "--param", "small", "--seed", "3", "--junit", &junit]);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let mut rows = Vec::new();
+    for line in stdout.lines().skip(1) {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        assert_eq!((words[1], words[3], words[6]), ("small", "200", "agreed"), "{line}");
+        assert!(words[4].parse::<u64>()? > 100 && words[5].parse::<u64>()? > 200, "{line}");
+        rows.push((words[0], words[2], words[5]));
+    }
+    for (block, rows) in NAMES.iter().zip(rows.chunks(3)) {
+        assert_eq!(rows.iter().map(|row| row.1).collect::<Vec<_>>(), ["rust", "verilator", "icarus"]);
+        // Every engine has seen the very same cycles.
+        assert!(rows.iter().all(|row| row.0 == *block && row.2 == rows[0].2), "{rows:?}");
+    }
+    assert_eq!(rows.len(), 9);
+    let junit = fs::read_to_string(&junit)?;
+    assert_eq!((junit.matches("<testcase ").count(), junit.matches("<failure").count()), (9, 0), "{junit}");
+    Ok(())
+}
+
+#[test]
+fn cli_check_mismatch_carries_what_repeats_it() -> Outcome {
+    if !tools::require_all(&["verilator", "g++", "iverilog"], "the check of a faulty design")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let out = path(folder.path(), "out");
+    assert_eq!(relief(&["emit", "vertex_adder", "--param", "position", "--out", &out]).0, Some(0));
+    let sources = path(folder.path(), "out/vertex_adder");
+    let module = path(folder.path(), "out/vertex_adder/relief_vertex_adder.sv");
+    let text = fs::read_to_string(&module)?;
+    assert!(text.contains(" + "), "{text}");
+    fs::write(&module, text.replacen(" + ", " - ", 1))?;
+    let junit = path(folder.path(), "junit.xml");
+    for engine in ["verilator", "icarus"] {
+        let (code, stdout, stderr) = relief(&[
+            "check",
+            "vertex_adder",
+            "--param",
+            "position",
+            "--engine",
+            engine,
+            "--sources",
+            &sources,
+            "--junit",
+            &junit,
+        ]);
+        assert_eq!((code, stderr.as_str()), (Some(1), ""), "{stdout}");
+        let said = format!("MISMATCH vertex_adder, width set position, engine {engine}, seed 1000: beat ");
+        assert!(stdout.contains(&said) && stdout.contains("port out_"), "{stdout}");
+        assert!(fs::read_to_string(&junit)?.contains("<failure"));
+        let waveform = stdout.lines().find_map(|line| line.trim().strip_prefix("waveform: ")).ok_or("no waveform")?;
+        let waveform = waveform.split(" (").next().ok_or("no waveform")?;
+        assert!(relief_waves::read(waveform)?.trace("vertex_adder.in_valid").is_some());
+        let replay =
+            stdout.lines().find_map(|line| line.trim().strip_prefix("replay:   relief ")).ok_or("no replay")?;
+        let (code, again, _) = relief(&replay.split(' ').collect::<Vec<_>>());
+        let place = |text: &str| text.split_once("beat ").map(|(_, place)| place.lines().next().map(str::to_owned));
+        assert_eq!((code, place(&again)), (Some(1), place(&stdout)), "{again}");
+    }
+    Ok(())
+}
+
+#[test]
+fn cli_emit_writes_the_same_bytes_each_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let emit = |name: &str| {
+        let out = path(folder.path(), name);
+        let (code, stdout, stderr) = relief(&["emit", "--param", "small", "--vectors", "40", "--out", &out]);
+        assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+        files(Path::new(&out))
+    };
+    let first = emit("first");
+    assert_eq!(first, emit("second"));
+    // Once more over the same folder: nothing is added, and nothing is left over.
+    assert_eq!(first, emit("first"));
+    for block in NAMES {
+        for name in ["filelist.f", "in.hex", "out.hex", &format!("relief_{block}.sv"), &format!("relief_{block}_tb.sv")]
+        {
+            assert!(first.contains_key(&format!("{block}/{name}")), "{block}/{name}");
+        }
+        assert_eq!(first[&format!("{block}/in.hex")].iter().filter(|&&byte| byte == b'\n').count(), 40);
+    }
+    assert!(first.keys().all(|name| !name.contains("/.")), "{:?}", first.keys());
+}
+
+#[test]
+fn cli_emitted_bench_passes_without_rust() -> Outcome {
+    if !tools::require_all(&["iverilog", "vvp"], "the emitted test benches")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let out = path(folder.path(), "out");
+    assert_eq!(relief(&["emit", "--param", "small", "--vectors", "40", "--out", &out]).0, Some(0));
+    for block in NAMES {
+        let folder = Path::new(&out).join(block);
+        let beats = fs::read_to_string(folder.join("out.hex"))?.lines().count();
+        assert!(beats > 10);
+        for options in [&[][..], &["+idle=0", "+stall=0"], &["+idle=60", "+stall=60", "+seed=9"]] {
+            let (code, said) = run_bench(&folder, block, options);
+            let pass = format!("PASS: 40 of 40 beats in, {beats} of {beats} beats out, ");
+            assert!(code == Some(0) && said.contains(&pass), "{block} {options:?}: {said}");
+        }
+        // One golden bit turned round is noticed.
+        let golden = fs::read_to_string(folder.join("out.hex"))?;
+        let (head, last) = golden.trim_end().rsplit_once('\n').ok_or("one line")?;
+        let (mask, value) = last.split_once('_').ok_or("no mask")?;
+        let at = mask.find('f').ok_or("no bit counts")?;
+        let turned = u8::from_str_radix(&value[at..=at], 16)? ^ 1;
+        let value = format!("{}{turned:x}{}", &value[..at], &value[at + 1..]);
+        fs::write(folder.join("out.hex"), format!("{head}\n{mask}_{value}\n"))?;
+        let (code, said) = run_bench(&folder, block, &[]);
+        assert!(code != Some(0) && said.contains("FAIL: "), "{block}: {said}");
+    }
+    Ok(())
+}
+
+#[test]
+fn cli_emitted_bench_passes_in_verilator() -> Outcome {
+    if !tools::require_all(&["verilator", "g++"], "the emitted test bench in Verilator")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let out = path(folder.path(), "out");
+    assert_eq!(relief(&["emit", "strip_unit", "--param", "small", "--vectors", "80", "--out", &out]).0, Some(0));
+    let folder = Path::new(&out).join("strip_unit");
+    let text = fs::read_to_string(folder.join("relief_strip_unit_tb.sv"))?;
+    let line =
+        text.lines().find_map(|line| line.strip_prefix("//   $ verilator ")).ok_or("the head names no command")?;
+    let (build, run) = line.split_once(" && ").ok_or("the head names no program")?;
+    let (code, stdout, stderr) = finish(Command::new("verilator").args(build.split(' ')).current_dir(&folder));
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    let (code, stdout, stderr) = finish(Command::new(folder.join(run)).current_dir(&folder));
+    assert!(code == Some(0) && stdout.contains("PASS: 80 of 80 beats in, "), "{stdout}{stderr}");
+    Ok(())
+}
+
+/// What a slip of the pen would make of an operator or a constant.
+const SLIPS: [(&str, &str); 12] = [
+    (" + ", " - "),
+    (" - ", " + "),
+    (" & ", " | "),
+    (" | ", " & "),
+    (" && ", " || "),
+    (" || ", " && "),
+    (" == ", " != "),
+    (" != ", " == "),
+    (" < ", " >= "),
+    (" >>> ", " >> "),
+    ("1'd1;", "1'd0;"),
+    ("1'd0;", "1'd1;"),
+];
+
+/// Sources with one slip each, at places spread over the source.
+fn mutants(source: &str, wanted: usize) -> Vec<(usize, String)> {
+    let lines: Vec<&str> = source.lines().collect();
+    let mut places = Vec::new();
+    for (number, line) in lines.iter().enumerate() {
+        let code = line.split("//").next().unwrap_or("");
+        if code.contains("initial") || code.contains("localparam") || code.contains("for (") {
+            continue;
+        }
+        for (right, wrong) in SLIPS {
+            for (at, _) in code.match_indices(right) {
+                places.push((number, format!("{}{wrong}{}", &line[..at], &line[at + right.len()..])));
+            }
+        }
+    }
+    let step = (places.len() as f64 / wanted as f64).max(1.0);
+    let chosen = (0..places.len().min(wanted)).map(|k| &places[(k as f64 * step) as usize]);
+    let make = |(number, line): &(usize, String)| {
+        let mut lines = lines.clone();
+        lines[*number] = line;
+        (number + 1, lines.join("\n") + "\n")
+    };
+    chosen.map(make).collect()
+}
+
+#[test]
+fn cli_emitted_bench_notices_faults() -> Outcome {
+    if !tools::require_all(&["iverilog", "vvp"], "faults in the emitted modules")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let out = path(folder.path(), "out");
+    let (mut made, mut noticed, mut missed) = (0, 0, Vec::new());
+    for (block, vectors) in [("vertex_adder", "20"), ("strip_unit", "3000"), ("remesher", "120")] {
+        assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
+        let folder = Path::new(&out).join(block);
+        for module in fs::read_to_string(folder.join("filelist.f"))?.lines() {
+            let file = folder.join(module);
+            let source = fs::read_to_string(&file)?;
+            let (mut of_module, mut tried) = (0, 0);
+            for (line, mutant) in mutants(&source, 5) {
+                fs::write(&file, mutant)?;
+                let (code, said) = run_bench(&folder, block, &[]);
+                // What Icarus refuses is no fault of the design.
+                let Some(code) = code else { continue };
+                tried += 1;
+                match code == 0 && said.contains("PASS: ") {
+                    true => missed.push(format!("{module}:{line}")),
+                    false => of_module += 1,
+                }
+            }
+            fs::write(&file, source)?;
+            assert!(tried == 0 || of_module > 0, "{module}: none of {tried} faults was noticed");
+            (made, noticed) = (made + tried, noticed + of_module);
+        }
+    }
+    println!("{noticed} of {made} faults noticed; not noticed: {}", missed.join(", "));
+    assert!(made >= 30 && noticed * 10 >= made * 8, "{noticed} of {made}; not noticed: {}", missed.join(", "));
+    Ok(())
+}
+
+fn everything() -> impl Iterator<Item = (&'static dyn Binding, &'static WidthSet)> {
+    BLOCKS.iter().flat_map(|block| WIDTH_SETS.iter().map(|set| (*block, set)))
+}
+
+#[test]
+fn cli_emitted_blocks_are_clean_at_every_width_set() -> Outcome {
+    if !tools::require_all(&["verilator", "iverilog"], "lint of the emitted blocks")? {
+        return Ok(());
+    }
+    let mut linted = 0;
+    for (block, set) in everything() {
+        let emitted = emitted(block, set, None)?;
+        let verilator = verilator_lint(&emitted.design, &[])?;
+        let icarus = iverilog_accepts(&emitted.design)?;
+        assert!(verilator.is_empty() && icarus.is_empty(), "{} {}: {verilator:?} {icarus:?}", block.name(), set.name);
+        linted += 1;
+    }
+    assert_eq!(linted, BLOCKS.len() * WIDTH_SETS.len());
+    Ok(())
+}
+
+#[test]
+fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
+    if !tools::require_all(&["yosys"], "synthesis of the emitted blocks")? {
+        return Ok(());
+    }
+    let set = WIDTH_SETS.iter().find(|set| set.name == "small").ok_or("no width set")?;
+    for (name, block_rams) in [("vertex_adder", 0), ("strip_unit", 1)] {
+        let block = relief_testbench::binding::find(name).ok_or("no block")?;
+        let report = yosys_synth_ecp5(&emitted(block, set, None)?.design)?;
+        println!("{name}: {report}");
+        assert_eq!(report.latches, Vec::<String>::new(), "{name}");
+        assert_eq!(report.distributed_rams, 0, "{name}: the column memory belongs into block RAM");
+        assert!(report.block_rams >= block_rams && report.flip_flops > 0, "{name}: {report}");
+    }
+    Ok(())
+}
+
+#[test]
+fn cli_emitted_remesher_has_neither_latch_nor_loop() -> Outcome {
+    if !tools::require_all(&["yosys"], "processes of the emitted remesher")? {
+        return Ok(());
+    }
+    let set = WIDTH_SETS.iter().find(|set| set.name == "position").ok_or("no width set")?;
+    let block = relief_testbench::binding::find("remesher").ok_or("no block")?;
+    let emitted = emitted(block, set, None)?;
+    let sources: Vec<String> = emitted.design.sources.iter().map(|file| format!("\"{}\"", file.display())).collect();
+    let folder = emitted.design.sources[0].parent().ok_or("no folder")?.to_owned();
+    // Mapping its dividers and multipliers takes minutes, so this stops before.
+    let script = format!(
+        "read_verilog -sv {}; hierarchy -check -top {}; proc; opt -fast; check -assert; select -assert-none t:$dlatch",
+        sources.join(" "),
+        emitted.design.top
+    );
+    let (code, stdout, stderr) = finish(Command::new("yosys").args(["-q", "-p", &script]).current_dir(folder));
+    assert_eq!(code, Some(0), "{stdout}{stderr}");
+    assert!(!format!("{stdout}{stderr}").contains("Latch inferred"), "{stdout}{stderr}");
+    Ok(())
+}
