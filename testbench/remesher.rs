@@ -74,7 +74,8 @@ pub fn step_of(set: &WidthSet, words: &[u64]) -> Step {
     }
 }
 
-/// A random base triangle: mostly small, one in eight degenerate, one in sixteen with extreme coordinates in one axis.
+/// A random base triangle: mostly small, one in four degenerate or with a tie (of two corners, of all three, of two axes,
+/// or mirrored in an axis), half of the axes at an end of the coordinates' range.
 pub fn random_base(set: &WidthSet, random: &mut Random) -> BaseTriangle {
     let mut base = BaseTriangle { corners: [[0; 3]; 3], data: [[0; MAX_COMPONENTS]; 3] };
     let (low, high) = set.coordinates();
@@ -90,6 +91,18 @@ pub fn random_base(set: &WidthSet, random: &mut Random) -> BaseTriangle {
     match random.below(16) {
         0 => base.corners[1] = base.corners[0],
         1 => base.corners[2] = base.corners[1],
+        2 => base.corners = [base.corners[0]; 3],
+        // Equal lengths along two axes, and equal areas on two planes: the lower axis wins.
+        3 => {
+            let [from, to] = [[0, 1], [1, 2], [2, 0]][random.below(3) as usize];
+            let flip = random.below(2) == 0;
+            let start = base.corners[0];
+            for corner in &mut base.corners[1..] {
+                let span = corner[from] - start[from];
+                let target = start[to] + if flip { -span } else { span };
+                corner[to] = target.clamp(low, high);
+            }
+        }
         _ => {}
     }
     for data in &mut base.data {
@@ -121,10 +134,10 @@ impl Binding for RemesherBinding {
         "sweeps base triangles into the steps of one-voxel triangle strips"
     }
     fn latency(&self) -> &'static str {
-        "max(3 W + 15, 2 W + 4 L + 22) + 6 at most"
+        "max(3 W + 14, 2 W + 4 L + 21) + 6 at most"
     }
     fn interval(&self) -> &'static str {
-        "one step a cycle; max(3 W, 2 W + 4 L + 7) + 18 a base triangle of few steps"
+        "one step a cycle; max(3 W, 2 W + 4 L + 7) + 17 a base triangle of few steps"
     }
     fn error(&self) -> &'static str {
         "edge n 2^-(g+1), interior (i+j) 2^-(g+1), and 1/2 of the rounding"

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Length and main direction of an edge, and whether it is a primary edge. Combinational.
+//! Length and main direction of an edge. Combinational.
 //!
 //! length = max |to[k] - from[k]|, direction = the axis k of that maximum, ties x > y > z
-//! primary = length > 0 and third[axis] lies within from[axis] .. to[axis]
 //!
 //! | port            | format       |   Golden: models::remesher (setup)   Error 0
-//! | from, to, third | 3 x signed T |   Example: (0,0,0) -> (2,-3,3): length 3, direction 1
-//! | axis            | unsigned 2   | the registered direction, so that the two halves are two cycles apart |
+//! | from, to        | 3 x signed T |   Example: (0,0,0) -> (2,-3,3): length 3, direction 1
 
 use crate::prelude::*;
 
@@ -16,20 +14,14 @@ use crate::prelude::*;
 pub struct EdgeMeasure<const T: usize> {
     pub from: Input<Lanes<3, T>>,
     pub to: Input<Lanes<3, T>>,
-    pub third: Input<Lanes<3, T>>,
-    pub axis: Input<U<2>>,
     pub length: Output<S<T>>,
     pub direction: Output<U<2>>,
-    pub primary: Output<Bit>,
     difference: Wire<Lanes<3, T>>,
     sign: Wire<Lanes<3, T>>,
     size: Wire<Lanes<3, T>>,
     x: Wire<S<T>>,
     y: Wire<S<T>>,
     z: Wire<S<T>>,
-    first: Wire<S<T>>,
-    last: Wire<S<T>>,
-    middle: Wire<S<T>>,
 }
 
 impl<const T: usize> Logic for EdgeMeasure<T> {
@@ -52,16 +44,6 @@ impl<const T: usize> Logic for EdgeMeasure<T> {
             self.length.next = self.z.val();
             self.direction.next = 2.into();
         }
-        self.first.next = self.from.val().get_bit(self.axis.val().index());
-        self.last.next = self.to.val().get_bit(self.axis.val().index());
-        self.middle.next = self.third.val().get_bit(self.axis.val().index());
-        // An edge of length 0 has first == last on its axis; it is not primary.
-        self.primary.next = (self.first.val() < self.last.val()
-            && self.first.val() <= self.middle.val()
-            && self.middle.val() <= self.last.val())
-            || (self.last.val() < self.first.val()
-                && self.last.val() <= self.middle.val()
-                && self.middle.val() <= self.first.val());
     }
 
     fn timing(&self) -> Vec<TimingInfo> {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Roles of a base triangle: primary edge, remeshing plane, sweep direction, case and winding.
 //!
-//! The primary edge is the longest edge that holds the third corner's coordinate within its own along its main
-//! direction (ties: lowest index); A and B are its ends, C the side corner. The sweep coordinate s runs along it, the
-//! side coordinate d is the other axis of larger projected area. d is mirrored so that C lies above AB, and s where
-//! C lies below A (decreasing), after which A and B change places and the triangle is an increasing one.
-//! All coordinates leave relative to A. (Gumhold & Huettner 1999, section 3.1, amended.)
+//! The primary edge is the longest edge (ties: lowest index): along its main direction it holds the third corner between
+//! its ends, or the edge to the corner outside were longer. A and B are its ends, C the side corner. The sweep
+//! coordinate s runs along it, the side coordinate d is the other axis of larger projected area. d is mirrored so that C
+//! lies above AB, and s where C lies below A (decreasing), after which A and B change places and the triangle is an
+//! increasing one. All coordinates leave relative to A. (Gumhold & Huettner 1999, section 3.1, amended.)
 //!
-//! | port          | format        | range |   Latency 13, then the slower of edge_setup and interior_setup
+//! | port          | format        | range |   Latency 12, then the slower of edge_setup and interior_setup
 //! | in_*          | stream        | corners 3 x signed N, vertex data L x signed V |
 //! | record_*      | stream        | stands still from `record_valid` to `record_ready` |
 //! | s_*, d_*, n_* | signed T      | relative to A, mirrored | Golden: models::remesher (setup)   Error 0
@@ -22,9 +22,7 @@ pub enum SetupState {
     Idle,
     /// Lengths and main directions of the edges.
     Measure,
-    /// Which edges are primary.
-    Primary,
-    /// Rotates the longest primary edge to AB.
+    /// Rotates the longest edge to AB.
     Choose,
     /// Swaps A and B so that s grows from A to B.
     Orient,
@@ -81,7 +79,7 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     pub swap: Output<Bit>,
     state: Register<SetupState>,
     round: Register<U<3>>,
-    // Corners and the edges ab, bc, ca between them: length, main direction, primary.
+    // Corners and the edges ab, bc, ca between them: length, main direction.
     pa: DataRegister<Lanes<3, T>>,
     pb: DataRegister<Lanes<3, T>>,
     pc: DataRegister<Lanes<3, T>>,
@@ -94,13 +92,9 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     dir_ab: DataRegister<U<2>>,
     dir_bc: DataRegister<U<2>>,
     dir_ca: DataRegister<U<2>>,
-    prime_ab: DataRegister<Bit>,
-    prime_bc: DataRegister<Bit>,
-    prime_ca: DataRegister<Bit>,
     odd: DataRegister<Bit>,
     decreasing: DataRegister<Bit>,
     is_roof: DataRegister<Bit>,
-    is_point: DataRegister<Bit>,
     sb: DataRegister<S<T>>,
     sc: DataRegister<S<T>>,
     db: DataRegister<S<T>>,
@@ -129,7 +123,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     #[hdl_gen]
     fn update(&mut self) {
         dff_setup!(self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca);
-        dff_setup!(self, clock, prime_ab, prime_bc, prime_ca, odd, decreasing, is_roof, is_point);
+        dff_setup!(self, clock, odd, decreasing, is_roof);
         dff_setup!(self, clock, sb, sc, db, dc, area, db_other, dc_other, product, area_other);
         clock!(self, clock, multiplier);
         self.in_ready.next = self.state.q.val() == SetupState::Idle;
@@ -153,21 +147,15 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.d_c.next = self.dc.q.val();
         self.area2.next = self.area.q.val();
         self.roof.next = self.is_roof.q.val();
-        self.point.next = self.is_point.q.val();
+        self.point.next = self.len_ab.q.val() == 0;
         self.swap.next = self.odd.q.val();
 
         self.edge_ab.from.next = self.pa.q.val();
         self.edge_ab.to.next = self.pb.q.val();
-        self.edge_ab.third.next = self.pc.q.val();
-        self.edge_ab.axis.next = self.dir_ab.q.val();
         self.edge_bc.from.next = self.pb.q.val();
         self.edge_bc.to.next = self.pc.q.val();
-        self.edge_bc.third.next = self.pa.q.val();
-        self.edge_bc.axis.next = self.dir_bc.q.val();
         self.edge_ca.from.next = self.pc.q.val();
         self.edge_ca.to.next = self.pa.q.val();
-        self.edge_ca.third.next = self.pb.q.val();
-        self.edge_ca.axis.next = self.dir_ca.q.val();
         self.axis.next = self.dir_ab.q.val();
         // The other two axes, the lower one first: it wins ties.
         if self.axis.val() == 0 {
@@ -223,29 +211,17 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                 self.dir_ab.d.next = self.edge_ab.direction.val();
                 self.dir_bc.d.next = self.edge_bc.direction.val();
                 self.dir_ca.d.next = self.edge_ca.direction.val();
-                self.state.d.next = SetupState::Primary;
-            }
-            SetupState::Primary => {
-                self.prime_ab.d.next = self.edge_ab.primary.val();
-                self.prime_bc.d.next = self.edge_bc.primary.val();
-                self.prime_ca.d.next = self.edge_ca.primary.val();
                 self.state.d.next = SetupState::Choose;
             }
             SetupState::Choose => {
                 self.odd.d.next = false;
                 self.decreasing.d.next = false;
                 self.is_roof.d.next = false;
-                self.is_point.d.next = self.len_ab.q.val() == 0 && self.len_bc.q.val() == 0 && self.len_ca.q.val() == 0;
                 self.state.d.next = SetupState::Orient;
                 self.round.d.next = 0.into();
-                if self.prime_ab.q.val()
-                    && (!self.prime_bc.q.val() || self.len_ab.q.val() >= self.len_bc.q.val())
-                    && (!self.prime_ca.q.val() || self.len_ab.q.val() >= self.len_ca.q.val())
-                {
+                if self.len_ab.q.val() >= self.len_bc.q.val() && self.len_ab.q.val() >= self.len_ca.q.val() {
                     // AB is P0 P1.
-                } else if self.prime_bc.q.val()
-                    && (!self.prime_ca.q.val() || self.len_bc.q.val() >= self.len_ca.q.val())
-                {
+                } else if self.len_bc.q.val() >= self.len_ca.q.val() {
                     self.pa.d.next = self.pb.q.val();
                     self.pb.d.next = self.pc.q.val();
                     self.pc.d.next = self.pa.q.val();
@@ -258,7 +234,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.dir_ab.d.next = self.dir_bc.q.val();
                     self.dir_bc.d.next = self.dir_ca.q.val();
                     self.dir_ca.d.next = self.dir_ab.q.val();
-                } else if self.prime_ca.q.val() {
+                } else {
                     self.pa.d.next = self.pc.q.val();
                     self.pb.d.next = self.pa.q.val();
                     self.pc.d.next = self.pb.q.val();
@@ -274,7 +250,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                 }
             }
             SetupState::Orient => {
-                if self.is_point.q.val() {
+                if self.len_ab.q.val() == 0 {
                     // Nothing to divide: one triangle of the three corners as they came.
                     self.state.d.next = SetupState::Wait;
                 } else {
@@ -288,20 +264,20 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
             }
             SetupState::Areas => {
                 self.round.d.next = self.round.q.val() + 1;
-                if self.round.q.val() == 0 {
-                    self.sb.d.next = self.pb.q.val().get_bit(self.axis.val().index())
-                        - self.pa.q.val().get_bit(self.axis.val().index());
-                    self.sc.d.next = self.pc.q.val().get_bit(self.axis.val().index())
-                        - self.pa.q.val().get_bit(self.axis.val().index());
-                    self.db.d.next = self.pb.q.val().get_bit(self.side_axis.val().index())
-                        - self.pa.q.val().get_bit(self.side_axis.val().index());
-                    self.dc.d.next = self.pc.q.val().get_bit(self.side_axis.val().index())
-                        - self.pa.q.val().get_bit(self.side_axis.val().index());
-                    self.db_other.d.next = self.pb.q.val().get_bit(self.other_axis.val().index())
-                        - self.pa.q.val().get_bit(self.other_axis.val().index());
-                    self.dc_other.d.next = self.pc.q.val().get_bit(self.other_axis.val().index())
-                        - self.pa.q.val().get_bit(self.other_axis.val().index());
-                } else if self.round.q.val() == 2 || self.round.q.val() == 4 {
+                // The spans stand from round 1 on; the corners do not move in between.
+                self.sb.d.next =
+                    self.pb.q.val().get_bit(self.axis.val().index()) - self.pa.q.val().get_bit(self.axis.val().index());
+                self.sc.d.next =
+                    self.pc.q.val().get_bit(self.axis.val().index()) - self.pa.q.val().get_bit(self.axis.val().index());
+                self.db.d.next = self.pb.q.val().get_bit(self.side_axis.val().index())
+                    - self.pa.q.val().get_bit(self.side_axis.val().index());
+                self.dc.d.next = self.pc.q.val().get_bit(self.side_axis.val().index())
+                    - self.pa.q.val().get_bit(self.side_axis.val().index());
+                self.db_other.d.next = self.pb.q.val().get_bit(self.other_axis.val().index())
+                    - self.pa.q.val().get_bit(self.other_axis.val().index());
+                self.dc_other.d.next = self.pc.q.val().get_bit(self.other_axis.val().index())
+                    - self.pa.q.val().get_bit(self.other_axis.val().index());
+                if self.round.q.val() == 2 || self.round.q.val() == 4 {
                     self.product.d.next = bit_cast_to::<S<A>>(self.multiplier.p.val());
                 } else if self.round.q.val() == 3 {
                     self.area.d.next = self.product.q.val() - bit_cast_to::<S<A>>(self.multiplier.p.val());
@@ -366,4 +342,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, prime_ab, prime_bc, prime_ca, odd, decreasing, is_roof, is_point, sb, sc, db, dc, area, db_other, dc_other, product, area_other, multiplier }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, area_other, multiplier }
