@@ -10,9 +10,12 @@ use relief_models::remesher::{BaseTriangle, Format, Setup, golden};
 use relief_models::step::{Kind, LeftCommand, MAX_COMPONENTS, RightCommand, Step, Vertex};
 use relief_models::strip_unit;
 use relief_testbench::binding::{Beat, Binding, Random};
+use relief_testbench::check::{Check, Verdict, check as run_check};
+use relief_testbench::cosim::tools;
 use relief_testbench::remesh::{Chain, Counts, Engine, GridTriangle, SCALE, base_of, remesh};
 use relief_testbench::remesher::{RemesherBinding, beat_of, format, random_base};
 use relief_testbench::stepped::Stepped;
+use relief_testbench::strip_unit::StripUnitBinding;
 
 mod common;
 
@@ -302,6 +305,24 @@ fn remesher_column_memory_of_two_changes_no_triangle() {
         assert_eq!(expected.next(), None, "seed {seed}");
         assert!(recalls > 0 && counts.triangles > 1_000, "seed {seed}: {recalls} recalls, {counts:?}");
     }
+}
+
+/// The emitted modules with a column memory of two places, which every column of more rows overflows: at the width sets'
+/// own depths only base triangles of millions of triangles do that.
+#[test]
+fn remesher_verilog_sends_again_what_the_column_memory_does_not_hold() -> Result<(), Box<dyn std::error::Error>> {
+    if !tools::require_all(&["verilator", "g++", "iverilog"], "the check of a small column memory")? {
+        return Ok(());
+    }
+    let tiny = WidthSet { column_depth: 2, ..position::SET };
+    let vectors = 300;
+    for binding in [&RemesherBinding as &dyn Binding, &StripUnitBinding] {
+        let report = run_check(&Check { vectors, icarus_vectors: vectors, ..Check::new(binding, &tiny) }, &())?;
+        assert_eq!(report.failure, None, "{}", binding.name());
+        assert_eq!(report.rows.len(), 3);
+        assert!(report.rows.iter().all(|row| row.vectors == vectors && row.verdict == Verdict::Agreed), "{report:?}");
+    }
+    Ok(())
 }
 
 /// Whenever the reset comes, in set-up or sweep, stalled or not, the next base triangles come out right.

@@ -285,13 +285,11 @@ impl<const T: usize> Logic for Sweep<T> {
         }
         self.index_behind.next = self.edge_index.q.val() + 1;
         self.index_next.next = self.index_behind.val();
+        // It never falls: C lies above A, not above B where CB follows AC, and above B where BC is swept from B.
         self.row_sum.next = self.edge_row_error.q.val() + (self.edge_slope.val() << 1);
         self.row_next.next = self.edge_row.q.val();
         self.row_error_next.next = self.row_sum.val();
-        if self.row_sum.val() < 0 {
-            self.row_next.next = self.edge_row.q.val() - 1;
-            self.row_error_next.next = self.row_sum.val() + (self.edge_length.val() << 1);
-        } else if self.row_sum.val() >= (self.edge_length.val() << 1) {
+        if self.row_sum.val() >= (self.edge_length.val() << 1) {
             self.row_next.next = self.edge_row.q.val() + 1;
             self.row_error_next.next = self.row_sum.val() - (self.edge_length.val() << 1);
         }
