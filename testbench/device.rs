@@ -103,6 +103,14 @@ impl Layout {
             output_words,
         }
     }
+    /// The word at which an output begins.
+    ///
+    /// # Panics
+    /// When there is no such output: a fault of the caller.
+    pub fn output(&self, name: &str) -> usize {
+        let found = self.outputs.iter().find(|(port, _)| port.name == name);
+        found.unwrap_or_else(|| panic!("the block has no output `{name}`")).1
+    }
     /// Fields of the input stream and the words where they begin.
     pub fn in_fields(&self) -> impl Iterator<Item = &(PortShape, usize)> {
         self.inputs.iter().filter(|(port, _)| port.name != "in_valid" && port.name != "out_ready")
@@ -110,5 +118,55 @@ impl Layout {
     /// Fields of the output stream, status included, and the words where they begin.
     pub fn out_fields(&self) -> impl Iterator<Item = &(PortShape, usize)> {
         self.outputs.iter().filter(|(port, _)| port.name != "in_ready" && port.name != "out_valid")
+    }
+}
+
+/// A block with the words of its ports in the present cycle.
+pub struct Stage {
+    /// The block.
+    pub device: Box<dyn Device>,
+    /// Where its ports lie.
+    pub layout: Layout,
+    /// Inputs of the present cycle.
+    pub inputs: Vec<u64>,
+    /// Outputs, once settled.
+    pub outputs: Vec<u64>,
+}
+
+impl Stage {
+    /// All inputs are zero: nothing is offered, nothing is taken.
+    pub fn new(device: Box<dyn Device>) -> Self {
+        let layout = Layout::of(device.as_ref());
+        Self { inputs: vec![0; layout.input_words], outputs: vec![0; layout.output_words], device, layout }
+    }
+    /// Offers a beat of the input stream, field after field in whole words.
+    pub fn offer(&mut self, beat: &[u64]) {
+        let mut from = 0;
+        for (port, to) in self.layout.in_fields() {
+            self.inputs[*to..to + port.words()].copy_from_slice(&beat[from..from + port.words()]);
+            from += port.words();
+        }
+        self.inputs[self.layout.in_valid] = 1;
+    }
+    /// Offers nothing.
+    pub fn withdraw(&mut self) {
+        self.inputs[self.layout.in_valid] = 0;
+    }
+    /// Lets the block settle.
+    pub fn settle(&mut self) {
+        self.device.settle(&self.inputs, &mut self.outputs);
+    }
+    /// Whether the offered beat is taken at the coming edge.
+    pub fn accepts(&self) -> bool {
+        self.inputs[self.layout.in_valid] == 1 && self.outputs[self.layout.in_ready] == 1
+    }
+    /// Whether a beat leaves at the coming edge.
+    pub fn sends(&self) -> bool {
+        self.outputs[self.layout.out_valid] == 1 && self.inputs[self.layout.out_ready] == 1
+    }
+    /// The fields of the output stream, one after the other.
+    pub fn sent(&self) -> Vec<u64> {
+        let fields = self.layout.out_fields();
+        fields.flat_map(|(port, at)| &self.outputs[*at..at + port.words()]).copied().collect()
     }
 }

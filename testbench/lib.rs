@@ -9,6 +9,7 @@
 //! | [`check`] | block against golden model, and every engine against the block, with replay and waveform |
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
+//! | [`replay`] | a block's Verilog in Verilator, run behind the block in batches |
 //! | [`remesh`] | whole grids through the golden models, the blocks, or their Verilog |
 //! | `<block>` | the binding of that block |
 
@@ -19,6 +20,7 @@ pub mod device;
 pub mod probe;
 pub mod remesh;
 pub mod remesher;
+pub mod replay;
 pub mod scoreboard;
 pub mod stepped;
 pub mod strip_unit;

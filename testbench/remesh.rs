@@ -28,7 +28,7 @@ pub use grid::{GridTriangle, parse_grid, read_grid};
 use crate::binding::Beat;
 use crate::cosim::CosimError;
 use crate::remesher::{beat_of, format};
-use relief_hdl::verilog::EmitError;
+use crate::replay::ReplayError;
 use relief_hdl::widths::{WidthSet, position};
 use relief_models::mesh::Progress;
 use relief_models::remesher::{BaseTriangle, Setup, golden};
@@ -68,10 +68,10 @@ pub enum RemeshError {
     /// The sink takes no more.
     #[error("the mesh cannot be written: {0}")]
     Output(#[from] io::Error),
-    /// The blocks cannot be emitted.
+    /// The emitted modules cannot be run, or do not follow.
     #[error(transparent)]
-    Emit(#[from] EmitError),
-    /// The emitted modules cannot be run.
+    Replay(#[from] ReplayError),
+    /// No folder for the emitted modules.
     #[error(transparent)]
     Cosim(#[from] CosimError),
     /// A block is at fault: it does not answer.
@@ -88,28 +88,12 @@ pub enum RemeshError {
         /// The cycle, counted from the reset.
         cycle: u64,
     },
-    /// Verilog and Rust disagree.
-    #[error(
-        "{block} of Verilator differs from that of Rust: in cycle {cycle} `{port}` is {got}, and {expected} was expected"
-    )]
-    Differs {
-        /// The module.
-        block: String,
-        /// The cycle, counted from power-up, two cycles of reset included.
-        cycle: u64,
-        /// The output.
-        port: String,
-        /// What Rust says, in hexadecimal.
-        expected: String,
-        /// What Verilator says.
-        got: String,
-    },
 }
 
 impl RemeshError {
     /// Whether the hardware is wrong, rather than the input or the surroundings.
     pub const fn is_mismatch(&self) -> bool {
-        matches!(self, Self::Hangs { .. } | Self::ColumnMemory { .. } | Self::Differs { .. })
+        matches!(self, Self::Hangs { .. } | Self::ColumnMemory { .. } | Self::Replay(ReplayError::Differs { .. }))
     }
 }
 
@@ -152,7 +136,7 @@ pub fn remesh(
         }
         Engine::Verilator => {
             progress.phase("building", 0);
-            let mut replay = verilog::Replay::build()?;
+            let mut replay = verilog::Followed::build()?;
             total(progress);
             replay.run(grid, &mut meter)
         }

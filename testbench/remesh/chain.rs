@@ -3,7 +3,7 @@
 
 use super::{RemeshError, Triangle};
 use crate::binding::{Beat, Binding, unpack};
-use crate::device::{Device, Layout};
+use crate::device::{Layout, Stage};
 use crate::remesher::RemesherBinding;
 use crate::scoreboard::PATIENCE;
 use crate::strip_unit::StripUnitBinding;
@@ -62,7 +62,7 @@ pub struct TrianglePorts {
 
 impl TrianglePorts {
     fn of(layout: &Layout, set: &WidthSet) -> Self {
-        let find = |name: &str| output(layout, name);
+        let find = |name: &str| layout.output(name);
         Self {
             valid: layout.out_valid,
             first: find("out_first"),
@@ -98,34 +98,6 @@ impl TrianglePorts {
     }
 }
 
-/// The word at which an output begins.
-fn output(layout: &Layout, name: &str) -> usize {
-    layout
-        .outputs
-        .iter()
-        .find(|(port, _)| port.name == name)
-        .unwrap_or_else(|| panic!("the block has no output `{name}`"))
-        .1
-}
-
-/// A block with the words of its ports in the present cycle.
-struct Stage {
-    device: Box<dyn Device>,
-    layout: Layout,
-    inputs: Vec<u64>,
-    outputs: Vec<u64>,
-}
-
-impl Stage {
-    fn new(device: Box<dyn Device>) -> Self {
-        let layout = Layout::of(device.as_ref());
-        Self { inputs: vec![0; layout.input_words], outputs: vec![0; layout.output_words], device, layout }
-    }
-    fn settle(&mut self) {
-        self.device.settle(&self.inputs, &mut self.outputs);
-    }
-}
-
 /// The two blocks on one clock. Every triangle is taken in the cycle in which it stands at the output.
 pub struct Chain {
     remesher: Stage,
@@ -146,7 +118,7 @@ impl Chain {
         let wires = remesher.layout.out_fields().zip(strip.layout.in_fields());
         let wires = wires.map(|((port, from), (_, to))| (*from, *to, port.words())).collect();
         Self {
-            commands: ["out_kind", "out_left", "out_right"].map(|name| output(&remesher.layout, name)),
+            commands: ["out_kind", "out_left", "out_right"].map(|name| remesher.layout.output(name)),
             ports: TrianglePorts::of(&strip.layout, set),
             remesher,
             strip,
@@ -158,13 +130,9 @@ impl Chain {
     pub fn decoder(&self) -> TrianglePorts {
         self.ports.clone()
     }
-    /// The two blocks with their layouts, the remesher first.
-    pub(super) fn blocks(&self) -> [(&dyn Device, &Layout); 2] {
-        [&self.remesher, &self.strip].map(|stage| (stage.device.as_ref(), &stage.layout))
-    }
-    /// Inputs and outputs of the two blocks in the present cycle, the remesher's first.
-    pub(super) fn words(&self) -> [(&[u64], &[u64]); 2] {
-        [&self.remesher, &self.strip].map(|stage| (stage.inputs.as_slice(), stage.outputs.as_slice()))
+    /// The two blocks, the remesher first.
+    pub(super) fn stages(&self) -> [&Stage; 2] {
+        [&self.remesher, &self.strip]
     }
     /// Outputs of the strip unit in the present cycle.
     pub fn strip_outputs(&self) -> &[u64] {
@@ -173,15 +141,12 @@ impl Chain {
 
     /// Kind, left and right command of the beat that the strip unit takes in the present cycle, if there is one.
     pub fn step(&self) -> Option<[u64; 3]> {
-        let Stage { layout, inputs, outputs, .. } = &self.remesher;
-        let taken = outputs[layout.out_valid] == 1 && inputs[layout.out_ready] == 1;
-        taken.then(|| self.commands.map(|at| outputs[at]))
+        self.remesher.sends().then(|| self.commands.map(|at| self.remesher.outputs[at]))
     }
 
     /// Whether the remesher takes a base triangle in the present cycle.
     pub fn accepts(&self) -> bool {
-        let Stage { layout, inputs, outputs, .. } = &self.remesher;
-        inputs[layout.in_valid] == 1 && outputs[layout.in_ready] == 1
+        self.remesher.accepts()
     }
 
     /// Lets both blocks settle.
@@ -216,24 +181,19 @@ impl Chain {
         let mut counts = Counts::default();
         let (mut accepted, mut silent, mut offered) = (0, 0, false);
         while counts.bases < accepted || bases.peek().is_some() {
-            let place = self.remesher.layout.in_valid;
-            if let Some(beat) = bases.peek()
-                && !offered
-            {
-                let mut from = 0;
-                for (port, to) in self.remesher.layout.in_fields() {
-                    self.remesher.inputs[*to..to + port.words()].copy_from_slice(&beat[from..from + port.words()]);
-                    from += port.words();
+            match bases.peek() {
+                Some(beat) if !offered => {
+                    self.remesher.offer(beat);
+                    offered = true;
                 }
-                offered = true;
+                None => self.remesher.withdraw(),
+                Some(_) => {}
             }
-            self.remesher.inputs[place] = u64::from(offered);
             self.settle();
             observer(self)?;
             counts.cycles += 1;
             silent += 1;
-            let (remesher, layout) = (&self.remesher.outputs, &self.remesher.layout);
-            if offered && remesher[layout.in_ready] == 1 {
+            if self.remesher.accepts() {
                 (accepted, offered, silent) = (accepted + 1, false, 0);
                 bases.next();
             }
