@@ -8,7 +8,10 @@
 //! ```
 //! (Gumhold & Huettner 1999, section 3, with the amendments that make it a tiling; see docs/blocks/remesher.md.)
 //!
-//! | port            | format           | range |   Interval: one step a cycle; set-up about 3 (W + 3) + 9 cycles
+//! Interval: one step a cycle, but a base triangle takes max(3 W, 2 W + 4 L + 7) + 17 cycles at least, its set-up.
+//! Latency: max(3 W + 14, 2 W + 4 L + 21) + 6 at most.
+//!
+//! | port            | format           | range |
 //! | in_p0..p2       | 3 x signed N     | grid corners, whole      |   Golden: models::remesher::golden
 //! | in_v0..v2       | L x signed V     | vertex data, whole       |   Error: edge n 2^-(g+1), interior (i+j) 2^-(g+1),
 //! | out_kind        | unsigned 2       | 0 step, 1 start, 2 init, 3 fan |   plus 1/2 of the rounding, units of V
@@ -38,7 +41,6 @@ use crate::prelude::*;
 /// The remesher. `L` components of `V` bits, accumulators of `W` = V + g + 1, `N` bits of coordinate; and derived from
 /// them `X` = W + 2, `T` = N + 3, `A` = 2 N + 3, `P` = W + T; counters of `K` bits for the column memory.
 #[derive(Clone, Debug, LogicBlock)]
-#[allow(missing_docs)]
 pub struct Remesher<
     const L: usize,
     const V: usize,
@@ -50,30 +52,48 @@ pub struct Remesher<
     const P: usize,
     const K: usize,
 > {
+    /// Clock and reset.
     pub clock: Input<ClockReset>,
+    /// A beat stands at the input.
     pub in_valid: Input<Bit>,
+    /// It is taken at this edge.
     pub in_ready: Output<Bit>,
+    /// Grid corner P0, voxels.
     pub in_p0: Input<Lanes<3, N>>,
+    /// Grid corner P1.
     pub in_p1: Input<Lanes<3, N>>,
+    /// Grid corner P2.
     pub in_p2: Input<Lanes<3, N>>,
+    /// Vertex data of P0.
     pub in_v0: Input<Lanes<L, V>>,
+    /// Vertex data of P1.
     pub in_v1: Input<Lanes<L, V>>,
+    /// Vertex data of P2.
     pub in_v2: Input<Lanes<L, V>>,
+    /// A beat stands at the output.
     pub out_valid: Output<Bit>,
+    /// It is taken at this edge.
     pub out_ready: Input<Bit>,
+    /// 0 step, 1 start, 2 init, 3 fan.
     pub out_kind: Output<U<2>>,
+    /// Left command: 0 ref, 1 set, 2 recall, 3 edge.
     pub out_left: Output<U<2>>,
+    /// Right command: 0 ref, 1 set, 2 store, 3 edge.
     pub out_right: Output<U<2>>,
+    /// Read a triangle (a, b, c) as (a, c, b).
     pub out_swap: Output<Bit>,
+    /// The last beat of its base triangle.
     pub out_last: Output<Bit>,
+    /// Vertex for the left side; means something where the left command is set.
     pub out_left_vertex: Output<Lanes<L, V>>,
+    /// Vertex for the right side; means something unless the right command is ref.
     pub out_right_vertex: Output<Lanes<L, V>>,
-    pub triangle: Gated<TriangleSetup<L, V, N, T, A>>,
-    pub edges: Gated<EdgeSetup<L, V, W, X, T>>,
-    pub interior: Gated<InteriorSetup<L, V, W, T, A, P>>,
-    pub sweep: Gated<Sweep<T>>,
-    pub walkers: Gated<Walkers<L, V, W, T>>,
-    pub commands: Gated<Commands<L, V, W, K>>,
+    triangle: Gated<TriangleSetup<L, V, N, T, A>>,
+    edges: Gated<EdgeSetup<L, V, W, X, T>>,
+    interior: Gated<InteriorSetup<L, V, W, T, A, P>>,
+    sweep: Gated<Sweep<T>>,
+    walkers: Gated<Walkers<L, V, W, T>>,
+    commands: Gated<Commands<L, V, W, K>>,
 }
 
 impl<

@@ -10,7 +10,8 @@
 //! (Gumhold & Huettner 1999, section 3.4; the column memory is ours: an interior vertex is displaced once, not twice.)
 //!
 //! | port         | format       | range |   Latency 1, interval 1 (2 for a recall right behind the store it recalls)
-//! | in_*         | stream       | the step port | Golden: models::strip_unit::StripUnit   Error 0
+//! | in_kind, in_left, in_right | unsigned 2 | the step port's codes (models::step) |
+//! | in_swap, in_last, in_*vertex | Bit, L x signed V | | Golden: models::strip_unit::StripUnit   Error 0
 //! | out_first, out_second | Bit | triangle (left, right, next_left), triangle (right, next_right, next_left) |
 //! | out_swap     | Bit          | read a triangle (a, b, c) as (a, c, b) |
 //! | out_*left, out_*right | L x signed V | |
@@ -28,28 +29,48 @@ use crate::prelude::*;
 
 /// Strip unit for vertices of `L` x `V` bits; `K` bits count the column memory.
 #[derive(Clone, Debug, LogicBlock)]
-#[allow(missing_docs)]
 pub struct StripUnit<const L: usize, const V: usize, const K: usize> {
+    /// Clock and reset.
     pub clock: Input<ClockReset>,
+    /// A beat stands at the input.
     pub in_valid: Input<Bit>,
+    /// It is taken at this edge.
     pub in_ready: Output<Bit>,
+    /// 0 step, 1 start, 2 init, 3 fan.
     pub in_kind: Input<U<2>>,
+    /// Left command: 0 ref, 1 set, 2 recall, 3 edge.
     pub in_left: Input<U<2>>,
+    /// Right command: 0 ref, 1 set, 2 store, 3 edge.
     pub in_right: Input<U<2>>,
+    /// Winding; read in a start.
     pub in_swap: Input<Bit>,
+    /// The last beat of its base triangle.
     pub in_last: Input<Bit>,
+    /// Vertex for the left side.
     pub in_left_vertex: Input<Lanes<L, V>>,
+    /// Vertex for the right side.
     pub in_right_vertex: Input<Lanes<L, V>>,
+    /// A beat stands at the output.
     pub out_valid: Output<Bit>,
+    /// It is taken at this edge.
     pub out_ready: Input<Bit>,
+    /// There is a triangle (left, right, next_left).
     pub out_first: Output<Bit>,
+    /// There is a triangle (right, next_right, next_left).
     pub out_second: Output<Bit>,
+    /// Read a triangle (a, b, c) as (a, c, b).
     pub out_swap: Output<Bit>,
+    /// The last beat of its base triangle.
     pub out_last: Output<Bit>,
+    /// Left end of the rung below.
     pub out_left: Output<Lanes<L, V>>,
+    /// Right end of the rung below.
     pub out_right: Output<Lanes<L, V>>,
+    /// Left end of the rung above.
     pub out_next_left: Output<Lanes<L, V>>,
+    /// Right end of the rung above.
     pub out_next_right: Output<Lanes<L, V>>,
+    /// Sticky: a recall of nothing, or a store into a full memory.
     pub error: Output<Bit>,
     left: Register<Lanes<L, V>>,
     right: Register<Lanes<L, V>>,

@@ -13,7 +13,7 @@
 //! |-------|----------------------------------------------------------------------------|------------------|
 //! | Start | `swap` loaded, column memory emptied; left = LD; start = right = RD         | none |
 //! | Init  | left = start; start = right = RD                                            | none |
-//! | Fan   | right = left; left = LD (left command Set) or edge (left command Edge)      | none |
+//! | Fan   | right = left; left = edge (left command Edge) or LD (any other)           | none |
 //! | Step  | L' = by the left command, R' = by the right command                         | (L,R,L') if L moved, (R,R',L') if R moved |
 //!
 //! LD and RD are the vertices sent with the beat. `Start` always sends both, `Init` the right one. A triangle with two

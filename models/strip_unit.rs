@@ -6,7 +6,7 @@
 //! ```text
 //! Start: swap := beat.swap; queue := []; left := LD; start := right := RD; edge stays
 //! Init:  left := start;     start := right := RD
-//! Fan:   right := left;     left := LD or edge
+//! Fan:   right := left;     left := edge, or LD at any other command
 //! Step:  L' := left | LD | pop(queue) | edge        R' := right | RD (Store: and push; Edge: and edge := RD)
 //!        triangles (left, right, L') if L moved, (right, R', L') if R moved; then left := L', right := R'
 //! ```
@@ -116,7 +116,8 @@ impl StripUnit {
             Held { vertex, index: self.sent }
         };
         // The numbers of a beat's vertices: left first.
-        let sent_left = send(step.left_vertex, step.sends_left() || step.kind == Kind::Start);
+        let fan_sends = step.kind == Kind::Fan && step.left != LeftCommand::Edge;
+        let sent_left = send(step.left_vertex, step.sends_left() || step.kind == Kind::Start || fan_sends);
         let sent_right = send(step.right_vertex, step.sends_right() || matches!(step.kind, Kind::Start | Kind::Init));
         let (left, right) = (self.left, self.right);
         let (mut left_moved, mut right_moved) = (false, false);

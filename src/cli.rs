@@ -48,6 +48,11 @@ pub fn write_all(mut target: impl Write, text: &str) -> io::Result<()> {
     }
 }
 
+/// A count of an option.
+pub fn count(text: &str) -> std::result::Result<u64, String> {
+    text.parse().map_err(|_| format!("a whole number from 0 to {} is expected", u64::MAX))
+}
+
 /// Work that is done sooner than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(2);
 
@@ -99,6 +104,14 @@ impl Progress for Meter {
         let mut phases = self.phases.lock().unwrap_or_else(PoisonError::into_inner);
         phases.begun.push((name, Instant::now()));
         self.show_if_late(&mut phases);
+        // Nothing advances in a phase of unknown length: the bar draws itself.
+        if total == 0 {
+            phases.shown = true;
+            self.bar.set_draw_target(ProgressDrawTarget::stderr());
+            self.bar.enable_steady_tick(PATIENCE);
+        } else {
+            self.bar.disable_steady_tick();
+        }
         self.bar.set_length(total);
         self.bar.set_position(0);
         self.bar.set_message(name);

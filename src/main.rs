@@ -28,6 +28,11 @@ enum Command {
 }
 
 fn main() -> ExitCode {
+    // What is half-written when somebody stops the program goes with it. Without the handler it would only stay.
+    let _ = ctrlc::set_handler(|| {
+        relief_testbench::output::remove_unfinished();
+        std::process::exit(130);
+    });
     let outcome = match Arguments::parse().command {
         Command::Blocks(arguments) => cli::blocks::run(&arguments),
         Command::Check(arguments) => cli::check::run(&arguments),

@@ -22,6 +22,7 @@ use crate::{
         VerilatorModel, default_cache, first_difference, tools,
     },
     device::{Device, Layout},
+    output::OutputFile,
     probe::BlockProbe,
     scoreboard::{Counts, Mismatch, Pattern, Scoreboard, Until},
 };
@@ -34,7 +35,8 @@ use relief_models::mesh::Progress;
 use relief_waves::{Group, TreeError, VcdRecorder, gtkw, gtkw::UnknownSignal, record::RecordError};
 use std::{
     cell::RefCell,
-    fmt, fs, io,
+    fmt, fs,
+    io::{self, Write as _},
     path::{Path, PathBuf},
     str::FromStr,
     time::{Duration, Instant},
@@ -145,6 +147,9 @@ pub enum CheckError {
     /// The save file would name what is not there.
     #[error(transparent)]
     Signal(#[from] UnknownSignal),
+    /// A file cannot be written.
+    #[error("{0}")]
+    Output(String),
     /// The system refused something.
     #[error("{what} failed: {cause}")]
     Io {
@@ -153,6 +158,12 @@ pub enum CheckError {
         /// Why it failed.
         cause: io::Error,
     },
+}
+
+impl From<String> for CheckError {
+    fn from(sentence: String) -> Self {
+        CheckError::Output(sentence)
+    }
 }
 
 fn io_error(what: impl Into<String>) -> impl FnOnce(io::Error) -> CheckError {
@@ -327,6 +338,9 @@ pub fn emitted(binding: &dyn Binding, set: &WidthSet, sources: Option<&Path>) ->
         let fail = |cause| CheckError::Emit { block: binding.name().into(), cause: Box::new(cause) };
         emission.write(folder.path()).map_err(fail)?;
     }
+    if let Some(sources) = sources {
+        expect_widths(&emission, &sources.join(format!("{}.sv", emission.top)))?;
+    }
     let ports = emission.top_module().ports.iter().map(|port| match port.direction {
         verilog::Direction::Input => Port::input(&port.name, port.bits),
         verilog::Direction::Output => Port::output(&port.name, port.bits),
@@ -340,6 +354,38 @@ pub fn emitted(binding: &dyn Binding, set: &WidthSet, sources: Option<&Path>) ->
     expect_ports(&design, Direction::Input, &inputs)?;
     expect_ports(&design, Direction::Output, &device.outputs())?;
     Ok(Emitted { design, _folder: folder })
+}
+
+/// Refuses a design of other port widths, such as one of another width set. A port that is declared in a form of its own
+/// is left to the simulators.
+fn expect_widths(emission: &Emission, file: &Path) -> Result<(), CheckError> {
+    let text = fs::read_to_string(file).map_err(io_error(format!("reading `{}`", file.display())))?;
+    let declared = |name: &str| {
+        text.lines().find_map(|line| {
+            let code = line.split("//").next()?.trim().trim_end_matches(',');
+            let rest = code.strip_prefix("input ").or(code.strip_prefix("output "))?;
+            let range = rest.strip_suffix(name).filter(|rest| rest.ends_with([' ', ']']))?.trim();
+            let range = range.trim_start_matches("wire").trim_start_matches("reg").trim_start_matches("logic").trim();
+            match range.strip_prefix('[') {
+                None => range.is_empty().then_some(1),
+                Some(range) => Some(range.split(':').next()?.parse::<usize>().ok()? + 1),
+            }
+        })
+    };
+    for port in &emission.top_module().ports {
+        if let Some(bits) = declared(&port.name)
+            && bits != port.bits
+        {
+            let (top, name) = (&emission.top, &port.name);
+            return Err(CheckError::Output(format!(
+                "{}: the port `{name}` of `{top}` has {bits} bits, and {} are expected: name the width set of these \
+                 sources with --param",
+                file.display(),
+                port.bits
+            )));
+        }
+    }
+    Ok(())
 }
 
 fn expect_ports(design: &Design, direction: Direction, shapes: &[PortShape]) -> Result<(), CheckError> {
@@ -588,13 +634,16 @@ impl Simulators {
 /// When something fails that is not the block. A mismatch is no error: see [`Report::failure`].
 pub fn check(check: &Check<'_>, progress: &dyn Progress) -> Result<Report, CheckError> {
     let Check { binding, set, engines, .. } = check;
-    progress.phase(binding.name(), check.vectors);
     let followed = engines.iter().any(|engine| *engine != Engine::Rust);
     let emitted = followed.then(|| emitted(*binding, set, check.sources.as_deref())).transpose()?;
     let simulators = match &emitted {
-        Some(emitted) => Simulators::build(&emitted.design, engines, false)?,
+        Some(emitted) => {
+            progress.phase("building", 0);
+            Simulators::build(&emitted.design, engines, false)?
+        }
         None => Simulators { verilator: None, icarus: None },
     };
+    progress.phase(binding.name(), check.vectors);
     let row = |engine| Row { engine, vectors: 0, beats: 0, cycles: 0, time: Duration::ZERO, verdict: Verdict::Agreed };
     let mut rows: Vec<Row> =
         Engine::ALL.into_iter().filter(|engine| *engine == Engine::Rust || engines.contains(engine)).map(row).collect();
@@ -622,7 +671,8 @@ pub fn check(check: &Check<'_>, progress: &dyn Progress) -> Result<Report, Check
             };
             row.cycles += cycles;
             row.time += time;
-            if row.engine != Engine::Icarus || leg.icarus {
+            // An engine that another one's mismatch stopped has replayed nothing.
+            if cycles > 0 {
                 row.vectors += played.counts.accepted;
                 row.beats += played.counts.checked;
             }
@@ -667,16 +717,17 @@ fn explain(
     Ok(Failure { block, set, engine, mismatch, seed, replay, waveform })
 }
 
-/// The waveform of a block in rust-hdl: a VCD file, and beside it the save file of GTKWave.
+/// Records what is in a block, with a save file for GTKWave beside it. Both appear whole or not at all.
 pub struct Recording {
     recorder: VcdRecorder<fs::File>,
     probe: BlockProbe,
     path: PathBuf,
-    temporary: PathBuf,
+    wave: OutputFile,
+    save: OutputFile,
 }
 
 impl Recording {
-    /// Records the cycles of `window`, counted from the reset, in the file `path`, which appears whole or not at all.
+    /// Records the cycles of `window`, counted from the reset, in the file `path`.
     pub fn new(
         binding: &dyn Binding,
         set: &WidthSet,
@@ -685,10 +736,10 @@ impl Recording {
     ) -> Result<Self, CheckError> {
         let device = binding.device(set);
         let probe = BlockProbe::new(binding.name(), device.block())?;
-        let temporary = sibling(path);
-        let file = fs::File::create(&temporary).map_err(io_error(format!("writing `{}`", path.display())))?;
+        let (wave, save) = (OutputFile::open(path)?, OutputFile::open(&path.with_extension("gtkw"))?);
+        let file = wave.writer().map_err(io_error(format!("writing `{}`", path.display())))?;
         let recorder = VcdRecorder::new(file, probe.tree().clone(), window);
-        Ok(Self { recorder, probe, path: path.into(), temporary })
+        Ok(Self { recorder, probe, path: path.into(), wave, save })
     }
 
     /// Takes the block's signals, where its cycle is in the window.
@@ -702,34 +753,15 @@ impl Recording {
 
     /// Closes the files and tells which cycles they hold; without a cycle there are no files.
     pub fn finish(self) -> Result<Option<std::ops::Range<u64>>, CheckError> {
-        let held = self.recorder.finish();
-        let Ok(Some(held)) = held else {
-            let _ = fs::remove_file(&self.temporary);
-            return Ok(held?);
-        };
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        let text = gtkw(self.probe.tree(), &Group::of_scopes(self.probe.tree()), &name)?;
-        let save = self.path.with_extension("gtkw");
-        replace(&save, text.as_bytes())?;
-        fs::rename(&self.temporary, &self.path).map_err(io_error(format!("naming `{}`", self.path.display())))?;
+        let Self { recorder, probe, path, wave, mut save } = self;
+        let Some(held) = recorder.finish()? else { return Ok(None) };
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let text = gtkw(probe.tree(), &Group::of_scopes(probe.tree()), &name)?;
+        save.write_all(text.as_bytes()).map_err(io_error(format!("writing beside `{}`", path.display())))?;
+        wave.commit()?;
+        save.commit()?;
         Ok(Some(held))
     }
-}
-
-/// Where a file is written before it gets its name.
-pub fn sibling(path: &Path) -> PathBuf {
-    let name = path.file_name().unwrap_or_default().to_string_lossy();
-    path.with_file_name(format!(".{name}.{}", std::process::id()))
-}
-
-/// Writes a file that appears whole or not at all.
-pub fn replace(path: &Path, bytes: &[u8]) -> Result<(), CheckError> {
-    let temporary = sibling(path);
-    let written = fs::write(&temporary, bytes).and_then(|()| fs::rename(&temporary, path));
-    written.map_err(|cause| {
-        let _ = fs::remove_file(&temporary);
-        CheckError::Io { what: format!("writing `{}`", path.display()), cause }
-    })
 }
 
 #[cfg(test)]

@@ -7,7 +7,9 @@
 //! | [`stepped`], [`device`] | a block under a clock that is stepped by hand; the same with its type hidden |
 //! | [`scoreboard`] | idle cycles, backpressure, comparison beat by beat |
 //! | [`check`] | block against golden model, and every engine against the block, with replay and waveform |
+//! | [`stimulus`] | beats from a file |
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
+//! | [`output`] | files and folders that appear whole or not at all |
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
 //! | [`replay`] | a block's Verilog in Verilator, run behind the block in batches |
 //! | [`remesh`] | whole grids through the golden models, the blocks, or their Verilog |
@@ -17,11 +19,13 @@ pub mod binding;
 pub mod check;
 pub mod cosim;
 pub mod device;
+pub mod output;
 pub mod probe;
 pub mod remesh;
 pub mod remesher;
 pub mod replay;
 pub mod scoreboard;
 pub mod stepped;
+pub mod stimulus;
 pub mod strip_unit;
 pub mod vertex_adder;

@@ -66,16 +66,27 @@ impl Steps {
                     let left = if self.random.chance(50) { LeftCommand::Set } else { LeftCommand::Edge };
                     self.step(Kind::Fan, left, RightCommand::Ref)
                 }
+                // Codes that the remesher never sends.
+                2 => {
+                    let kind = [Kind::Start, Kind::Init, Kind::Fan][self.random.below(3) as usize];
+                    if kind == Kind::Start {
+                        self.stored = 0;
+                    }
+                    let (left, right) = self.commands();
+                    self.step(kind, left, right)
+                }
                 _ => self.random_step(),
             };
             self.queue.push_back(step);
         }
     }
+    fn commands(&mut self) -> (LeftCommand, RightCommand) {
+        let left = [LeftCommand::Ref, LeftCommand::Set, LeftCommand::Recall, LeftCommand::Edge];
+        let right = [RightCommand::Ref, RightCommand::Set, RightCommand::Store, RightCommand::Edge];
+        (left[self.random.below(4) as usize], right[self.random.below(4) as usize])
+    }
     fn random_step(&mut self) -> Step {
-        let mut left =
-            [LeftCommand::Ref, LeftCommand::Set, LeftCommand::Recall, LeftCommand::Edge][self.random.below(4) as usize];
-        let right = [RightCommand::Ref, RightCommand::Set, RightCommand::Store, RightCommand::Edge]
-            [self.random.below(4) as usize];
+        let (mut left, right) = self.commands();
         // Recalls of nothing set the sticky error: rarely, so that its rise is seen.
         if left == LeftCommand::Recall {
             if self.stored == 0 && self.random.below(1000) != 0 {

@@ -53,10 +53,9 @@ impl<const A: usize, const B: usize, const P: usize> Logic for Multiplier<A, B, 
         self.p.connect();
     }
     fn hdl(&self) -> Verilog {
-        // The factors are signed and extended to the product's width by the assignment; widening them by hand hides
-        // the small multiplication from synthesis.
         Verilog::Custom(format!(
-            "{INLINE}/* verilator lint_off WIDTH */\nalways @(posedge clock) @p <= @a * @b;\n\
+            "{INLINE}/* verilator lint_off WIDTH */ // The assignment extends the signed factors; done by hand, \
+             synthesis would not see the small product.\nalways @(posedge clock) @p <= @a * @b;\n\
              /* verilator lint_on WIDTH */\n"
         ))
     }

@@ -62,8 +62,9 @@ pub(super) fn module(scope: &Scope, name: &str, instances: &[Option<&Module>]) -
     let functions = printer.functions.0;
     let mut source = parts.head(name, custom.is_some());
     if printer.compares_constants {
-        // A parameter at the end of its range makes a comparison constant, which is not a fault of the block.
-        source += "\n    /* verilator lint_off CMPCONST */\n    /* verilator lint_off UNSIGNED */\n";
+        let reason = "// A constant at the end of its range decides a comparison at this width set.";
+        source += &format!("\n    /* verilator lint_off CMPCONST */ {reason}\n");
+        source += &format!("    /* verilator lint_off UNSIGNED */ {reason}\n");
     }
     for section in [
         parts.constants(),
@@ -91,7 +92,8 @@ pub(super) fn module(scope: &Scope, name: &str, instances: &[Option<&Module>]) -
 /// The functions; some take parts of their arguments, which is what they are for.
 fn function_section(functions: &BTreeMap<String, String>) -> String {
     let text = functions.values().cloned().collect::<Vec<_>>().join("\n");
-    let (off, on) = ("/* verilator lint_off UNUSEDSIGNAL */", "/* verilator lint_on UNUSEDSIGNAL */");
+    let off = "/* verilator lint_off UNUSEDSIGNAL */ // A function may take a part of its argument and leave the rest.";
+    let on = "/* verilator lint_on UNUSEDSIGNAL */";
     if text.is_empty() { text } else { format!("    {off}\n{text}    {on}\n") }
 }
 
@@ -189,8 +191,8 @@ impl Parts<'_> {
         let mut out = String::new();
         for e in self.symbols.enums.values() {
             let ty = Type::Enum(e.clone());
-            // The whole encoding stands here, for the reader of waveforms, even where only a part is used.
-            out += "    /* verilator lint_off UNUSEDPARAM */\n";
+            let reason = "// The whole encoding stands here, for the reader of waveforms.";
+            out += &format!("    /* verilator lint_off UNUSEDPARAM */ {reason}\n");
             for (code, variant) in e.variants.iter().enumerate() {
                 let width = ty.width();
                 out += &format!("    localparam {}{}_{variant} = {width}'d{code};\n", ty.full_range(), e.name);

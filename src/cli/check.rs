@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `relief check`: do the blocks equal their golden models, and the emitted Verilog the blocks?
 
-use std::fmt::Write;
-use std::io::{stderr, stdout};
+use std::fmt::Write as _;
+use std::io::{Write as _, stderr, stdout};
 use std::path::PathBuf;
 use std::time::Duration;
 
 use quick_junit::{NonSuccessKind, Report as Junit, TestCase, TestCaseStatus, TestSuite};
-use relief_testbench::check::{Check, Engine, Report, Row, Verdict, check, replace};
+use relief_testbench::check::{Check, Engine, Report, Row, Verdict, check};
+use relief_testbench::output::OutputFile;
 
-use super::{Meter, Outcome, Result, select, write_all};
+use super::{Meter, Outcome, Result, count, select, write_all};
 
 /// Check blocks against their golden models, in rust-hdl, Verilator and Icarus
 ///
@@ -21,13 +22,13 @@ pub struct Arguments {
     #[arg(value_name = "BLOCK")]
     blocks: Vec<String>,
     /// Vectors of each block
-    #[arg(long, value_name = "N", default_value_t = 2000)]
+    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = count, allow_negative_numbers = true)]
     vectors: u64,
     /// 1,000,000 vectors in rust-hdl and Verilator, and 10,000 of them in Icarus
     #[arg(long, conflicts_with = "vectors")]
     full: bool,
     /// Seed of beats, idle cycles and backpressure
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = count, allow_negative_numbers = true)]
     seed: u64,
     /// rust, verilator, icarus, or all that are installed
     #[arg(long, value_name = "ENGINE", default_value = "all")]
@@ -64,6 +65,13 @@ pub fn run(arguments: &Arguments) -> Result {
     if arguments.vectors == 0 {
         return Err("--vectors is 0, and a check of nothing would agree: give 1 or more".into());
     }
+    if arguments.sources.is_some() && engines.run.iter().all(|engine| *engine == Engine::Rust) {
+        return Err(
+            "--sources is read by Verilator and Icarus alone: give --engine verilator or --engine icarus".into()
+        );
+    }
+    // Opened before the work.
+    let report = arguments.junit.as_deref().map(OutputFile::open).transpose()?;
     let vectors = if arguments.full { 1_000_000 } else { arguments.vectors };
     for (engine, missing) in &engines.skipped {
         write_all(stderr(), &format!("SKIPPED {engine}: install the Debian package {}\n", missing.package))?;
@@ -103,9 +111,9 @@ pub fn run(arguments: &Arguments) -> Result {
     if arguments.timings {
         write_all(stderr(), &timings)?;
     }
-    if let Some(path) = &arguments.junit {
-        let text = junit(&reports, &engines).to_string()?;
-        replace(path, text.as_bytes())?;
+    if let Some(mut file) = report {
+        file.write_all(junit(&reports, &engines).to_string()?.as_bytes())?;
+        file.commit()?;
     }
     let agreed = reports.iter().all(|report| report.failure.is_none());
     Ok(if agreed { Outcome::Agreed } else { Outcome::Mismatch })

@@ -4,15 +4,17 @@
 use std::fmt::Write;
 use std::fs;
 use std::io::stdout;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use relief_hdl::widths::WidthSet;
+use relief_models::mesh::Progress;
 use relief_testbench::binding::{Binding, Expected};
-use relief_testbench::check::{emission, sibling};
+use relief_testbench::check::emission;
 use relief_testbench::device::Layout;
+use relief_testbench::output::OutputFolder;
 use relief_testbench::scoreboard::PATIENCE;
 
-use super::{Outcome, Result, select, write_all};
+use super::{Meter, Outcome, Result, count, select, write_all};
 
 /// Write blocks as SystemVerilog, with golden vectors and a self-checking test bench
 ///
@@ -30,10 +32,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     param: Option<String>,
     /// Golden vectors of each block
-    #[arg(long, value_name = "N", default_value_t = 256, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 256, value_parser = vectors, allow_negative_numbers = true)]
     vectors: u64,
     /// Seed of the golden vectors
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = count, allow_negative_numbers = true)]
     seed: u64,
 }
 
@@ -41,65 +43,52 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result {
     let blocks = select::blocks(&arguments.blocks)?;
     let set = select::width_set(arguments.param.as_deref())?;
-    fs::create_dir_all(&arguments.out).map_err(failed("making the folder", &arguments.out))?;
-    for block in blocks {
+    fs::create_dir_all(&arguments.out)
+        .map_err(|error| format!("{}: the folder cannot be made: {error}", arguments.out.display()))?;
+    let meter = Meter::new();
+    meter.phase("emitting", blocks.len() as u64);
+    // Every folder is filled before the first one gets its name.
+    let (mut folders, mut text) = (Vec::new(), String::new());
+    for (block, done) in blocks.into_iter().zip(1..) {
+        let place = arguments.out.join(block.name());
+        let folder = OutputFolder::open(&place)?;
         let vectors = Vectors::new(block, set, arguments.vectors, arguments.seed);
-        let folder = arguments.out.join(block.name());
         let emission = emission(block, set)?;
-        appear(&folder, |temporary| {
-            emission.write(temporary)?;
-            let bench = format!("{}_tb.sv", emission.top);
-            let files = [
-                ("in.hex", vectors.input_text()),
-                ("out.hex", vectors.output_text()),
-                (bench.as_str(), bench_text(set, &emission.top, &vectors, arguments.seed)),
-            ];
-            for (name, text) in files {
-                let path = temporary.join(name);
-                fs::write(&path, text).map_err(failed("writing", &path))?;
-            }
-            Ok(())
-        })?;
+        emission.write(folder.path())?;
+        let bench = format!("{}_tb.sv", emission.top);
+        let files = [
+            ("in.hex", vectors.input_text()),
+            ("out.hex", vectors.output_text()),
+            (bench.as_str(), bench_text(set, &emission.top, &vectors, arguments.seed)),
+        ];
+        for (name, text) in files {
+            let path = folder.path().join(name);
+            fs::write(&path, text).map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
+        }
+        folder.files()?;
+        folders.push(folder);
         let (modules, beats) = (emission.modules.len(), vectors.outputs.len());
-        let line = format!(
-            "{}: {modules} modules, {} vectors, {beats} golden beats, width set {}\n",
-            folder.display(),
+        writeln!(
+            text,
+            "{}: {modules} modules, {} vectors, {beats} golden beats, width set {}",
+            place.display(),
             vectors.inputs.len(),
             set.name
-        );
-        write_all(stdout(), &line)?;
+        )?;
+        meter.advance(done);
     }
+    meter.finish();
+    // Modules of another width set would stand beside those of this one.
+    let stale = |name: &str| name.starts_with("relief_") && (name.ends_with(".sv") || name.ends_with(".hex"));
+    folders.into_iter().try_for_each(|folder| folder.commit(stale))?;
+    write_all(stdout(), &text)?;
     Ok(Outcome::Agreed)
 }
 
-fn failed(what: &str, path: &Path) -> impl FnOnce(std::io::Error) -> String {
-    let what = format!("{what} `{}`", path.display());
-    move |cause| format!("{what} failed: {cause}")
-}
-
-/// Fills a folder beside `folder` and gives it its name. Where `folder` is already there, its files are replaced one by
-/// one, and what else is in it stays.
-fn appear(
-    folder: &Path,
-    fill: impl FnOnce(&Path) -> std::result::Result<(), Box<dyn std::error::Error>>,
-) -> std::result::Result<(), Box<dyn std::error::Error>> {
-    let temporary = sibling(folder);
-    fs::create_dir_all(&temporary).map_err(failed("making the folder", &temporary))?;
-    let named = fill(&temporary).and_then(|()| {
-        if !folder.exists() {
-            return Ok(fs::rename(&temporary, folder).map_err(failed("naming the folder", folder))?);
-        }
-        for entry in fs::read_dir(&temporary).map_err(failed("reading the folder", &temporary))? {
-            let entry = entry.map_err(failed("reading the folder", &temporary))?;
-            let path = folder.join(entry.file_name());
-            fs::rename(entry.path(), &path).map_err(failed("writing", &path))?;
-        }
-        Ok(fs::remove_dir(&temporary).map_err(failed("removing the folder", &temporary))?)
-    });
-    if named.is_err() {
-        let _ = fs::remove_dir_all(&temporary);
-    }
-    named
+fn vectors(text: &str) -> std::result::Result<u64, String> {
+    let most = 100_000;
+    let number = text.parse().ok().filter(|number| (1..=most).contains(number));
+    number.ok_or_else(|| format!("a whole number from 1 to {most} is expected"))
 }
 
 /// Beats as the bits of one vector: the fields in port order, the first one lowest.

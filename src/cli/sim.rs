@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `relief sim`: one block, one stimulus, one engine; counts, verdict, waveforms.
 
-use std::io::stdout;
+use std::io::{Write, stdout};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use relief_hdl::verilog::PortInfo;
 use relief_hdl::widths::WidthSet;
 use relief_models::mesh::Progress;
-use relief_testbench::binding::{Beat, Binding};
-use relief_testbench::check::{
-    Engine, Followers, Play, Recording, Simulators, emission, emitted, play, replace, sibling,
-};
+use relief_testbench::binding::Binding;
+use relief_testbench::check::{Engine, Followers, Play, Recording, Simulators, emission, emitted, play};
 use relief_testbench::cosim::{Design, Dump, PowerUp};
 use relief_testbench::device::Layout;
+use relief_testbench::output::OutputFile;
 use relief_testbench::scoreboard::{Pattern, Until};
+use relief_testbench::stimulus::{parse_stimulus, read_bounded};
 use relief_waves::{Drawing, Group, Item, Label, Scope, Signal, SignalTree, VcdRecorder, draw, gtkw, read};
 
-use super::{Meter, Outcome, Result, select, write_all};
+use super::{Meter, Outcome, Result, count, select, write_all};
 
 /// Play one block on random beats or on those of a file, and compare it with its golden model
 ///
@@ -28,10 +28,10 @@ pub struct Arguments {
     /// The block
     block: String,
     /// Play N random beats; 1000 unless there is a stimulus file
-    #[arg(long, value_name = "N", conflicts_with = "stimulus")]
+    #[arg(long, value_name = "N", conflicts_with = "stimulus", value_parser = count, allow_negative_numbers = true)]
     random: Option<u64>,
     /// Seed of random beats, idle cycles and backpressure
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, value_parser = count, allow_negative_numbers = true)]
     seed: u64,
     /// Play the beats of this file
     #[arg(long, value_name = "FILE")]
@@ -43,10 +43,10 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     param: Option<String>,
     /// Cycles in which no beat is offered, in percent
-    #[arg(long, value_name = "P", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=99))]
+    #[arg(long, value_name = "P", default_value_t = 0, value_parser = percent, allow_negative_numbers = true)]
     idle: u8,
     /// Cycles in which no beat is taken, in percent
-    #[arg(long, value_name = "P", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=99))]
+    #[arg(long, value_name = "P", default_value_t = 0, value_parser = percent, allow_negative_numbers = true)]
     stall: u8,
     /// Write a waveform, and beside it a save file for GTKWave
     #[arg(long, value_name = "FILE")]
@@ -67,6 +67,10 @@ const ICARUS_MOST: u64 = 100_000;
 
 /// More cycles make no picture.
 const DRAWN_MOST: u64 = 500;
+
+fn percent(text: &str) -> std::result::Result<u8, String> {
+    text.parse().ok().filter(|percent| *percent < 100).ok_or_else(|| "a whole number from 0 to 99 is expected".into())
+}
 
 fn window(text: &str) -> std::result::Result<Range<u64>, String> {
     let parse = || {
@@ -90,6 +94,23 @@ pub fn run(arguments: &Arguments) -> Result {
     if engine == Engine::Icarus && arguments.vcd.is_some() {
         return Err("Icarus writes no waveform here: give --engine rust or --engine verilator with --vcd".into());
     }
+    if engine == Engine::Rust && arguments.sources.is_some() {
+        return Err(
+            "--sources is read by Verilator and Icarus alone: give --engine verilator or --engine icarus".into()
+        );
+    }
+    if let (Some(vcd), Some(svg)) = (&arguments.vcd, &arguments.svg)
+        && (vcd == svg || vcd.with_extension("gtkw") == *svg)
+    {
+        return Err(
+            format!("--svg {} would replace the waveform or its save file: give another name", svg.display()).into()
+        );
+    }
+    if arguments.vcd.as_ref().is_some_and(|path| path.extension().is_some_and(|extension| extension == "gtkw")) {
+        return Err(
+            "--vcd names the save file of GTKWave, which goes beside the waveform: give a name such as wave.vcd".into(),
+        );
+    }
     if arguments.svg.is_some() && window.end - window.start > DRAWN_MOST {
         return Err(format!(
             "--cycles holds {} cycles, and a drawing at most {DRAWN_MOST}: give a smaller window with --svg",
@@ -100,7 +121,8 @@ pub fn run(arguments: &Arguments) -> Result {
     let pattern = Pattern { idle: arguments.idle, stall: arguments.stall, seed: arguments.seed };
     let (run, vectors, what) = match &arguments.stimulus {
         Some(path) => {
-            let beats = stimulus(block, set, path)?;
+            let bytes = read_bounded(path, "a stimulus file")?;
+            let beats = parse_stimulus(block, set, &path.display().to_string(), &bytes)?;
             let vectors = beats.len() as u64;
             let source = Box::new(beats.into_iter());
             let run = Play { binding: block, set, pattern, source, until: Until::Exhausted };
@@ -123,16 +145,28 @@ pub fn run(arguments: &Arguments) -> Result {
         Engine::Rust => None,
         _ => Some(emitted(block, set, arguments.sources.as_deref())?),
     };
+    let meter = Meter::new();
+    if emitted.is_some() {
+        meter.phase("building", 0);
+    }
     let simulators = match &emitted {
         Some(emitted) => Simulators::build(&emitted.design, &[engine], traced)?,
         None => Simulators { verilator: None, icarus: None },
     };
     // Verilator counts from power-up, and is in reset for the first cycles.
     let reset = relief_testbench::check::RESET_CYCLES as u64;
-    let dump = arguments.vcd.as_ref().filter(|_| traced).map(|path| Dump {
-        path: sibling(path),
+    let dumped = traced.then(|| tempfile::Builder::new().suffix(".vcd").tempfile()).transpose()?;
+    let dump = dumped.as_ref().map(|file| Dump {
+        path: file.path().into(),
         window: window.start.saturating_add(reset)..window.end.saturating_add(reset),
     });
+    // Every output is opened before the work.
+    let open = |path: PathBuf| OutputFile::open(&path);
+    let mut wave = match arguments.vcd.as_ref().filter(|_| traced) {
+        Some(path) => Some((open(path.clone())?, open(path.with_extension("gtkw"))?)),
+        None => None,
+    };
+    let mut picture = arguments.svg.clone().map(open).transpose()?;
     let followers = Followers {
         verilator: match &simulators.verilator {
             Some(model) => Some(model.start_with(PowerUp::Random(arguments.seed as u32), dump.as_ref())?),
@@ -146,7 +180,6 @@ pub fn run(arguments: &Arguments) -> Result {
     };
     let mut streams = arguments.svg.as_ref().map(|_| Streams::new(block, set, window.clone())).transpose()?;
 
-    let meter = Meter::new();
     meter.phase(block.name(), vectors);
     let played = play(run, followers, &mut |done| meter.advance(done), &mut |device, inputs, outputs| {
         if let Some(recording) = &mut recording {
@@ -160,10 +193,7 @@ pub fn run(arguments: &Arguments) -> Result {
     meter.finish();
     let played = match played {
         Ok(played) => played,
-        Err(error) => {
-            dump.iter().for_each(|dump| drop(std::fs::remove_file(&dump.path)));
-            return Err(error.into());
-        }
+        Err(error) => return Err(error.into()),
     };
 
     let counts = played.counts;
@@ -182,56 +212,31 @@ pub fn run(arguments: &Arguments) -> Result {
         let Range { start, end } = window;
         format!("--cycles is {start}..{end}, and the run has only {} cycles: give a window within them", counts.cycles)
     };
-    let reached = window.start < counts.cycles;
-    if let (Some(path), Some(dump)) = (&arguments.vcd, &dump) {
-        if !reached {
-            let _ = std::fs::remove_file(&dump.path);
+    if let (Some(path), Some(dump), Some(emitted), Some((mut wave, mut save))) =
+        (&arguments.vcd, &dump, &emitted, wave.take())
+    {
+        if window.start >= counts.cycles {
             return Err(short().into());
         }
-        std::fs::rename(&dump.path, path).map_err(|cause| format!("writing `{}` failed: {cause}", path.display()))?;
-        if let Some(emitted) = &emitted {
-            let file = path.file_name().unwrap_or_default().to_string_lossy();
-            let tree = outer_ports(&emitted.design)?;
-            let text = gtkw(&tree, &Group::of_scopes(&tree), &file)?;
-            replace(&path.with_extension("gtkw"), text.as_bytes())?;
-        }
+        std::io::copy(&mut std::fs::File::open(&dump.path)?, &mut wave)?;
+        let file = path.file_name().unwrap_or_default().to_string_lossy();
+        let tree = outer_ports(&emitted.design)?;
+        save.write_all(gtkw(&tree, &Group::of_scopes(&tree), &file)?.as_bytes())?;
+        wave.commit()?;
+        save.commit()?;
     }
     if let Some(recording) = recording
         && recording.finish()?.is_none()
     {
         return Err(short().into());
     }
-    if let (Some(path), Some(streams)) = (&arguments.svg, streams) {
+    if let (Some(mut picture), Some(streams)) = (picture.take(), streams) {
         let title = format!("{name}, {}, idle {idle} %, stall {stall} %", set.name);
-        match streams.finish(&title)? {
-            Some(picture) => replace(path, picture.as_bytes())?,
-            None => return Err(short().into()),
-        }
+        let drawn = streams.finish(&title)?.ok_or_else(short)?;
+        picture.write_all(drawn.as_bytes())?;
+        picture.commit()?;
     }
     Ok(if played.mismatch.is_none() { Outcome::Agreed } else { Outcome::Mismatch })
-}
-
-/// The beats of a file: one a line, integers with blanks between them, `#` before a comment.
-fn stimulus(block: &dyn Binding, set: &WidthSet, path: &Path) -> std::result::Result<Vec<Beat>, String> {
-    let file = path.display();
-    let text = std::fs::read_to_string(path).map_err(|cause| format!("{file} cannot be read: {cause}"))?;
-    let mut beats = Vec::new();
-    for (number, line) in (1..).zip(text.lines()) {
-        let line = line.split('#').next().unwrap_or("");
-        if line.trim().is_empty() {
-            continue;
-        }
-        let fail = |what: String| {
-            let format = block.stimulus_format();
-            format!("{file}:{number}: {what}; a beat of {} at width set {} is {format}", block.name(), set.name)
-        };
-        let numbers = line
-            .split_whitespace()
-            .map(|word| word.parse::<i64>().map_err(|_| fail(format!("`{word}` is no integer of 64 bits"))));
-        let numbers = numbers.collect::<std::result::Result<Vec<_>, _>>()?;
-        beats.push(block.parse(set, &numbers).map_err(fail)?);
-    }
-    Ok(beats)
 }
 
 /// The ports as Verilator's waveform names them.

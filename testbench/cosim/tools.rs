@@ -31,9 +31,10 @@ pub struct Missing {
 }
 
 /// Program, Debian package, and the option that makes it say its version.
-const KNOWN: [(&str, &str, &str); 5] = [
+const KNOWN: [(&str, &str, &str); 6] = [
     ("verilator", "verilator", "--version"),
     ("g++", "g++", "--version"),
+    ("make", "make", "--version"),
     ("iverilog", "iverilog", "-V"),
     ("vvp", "iverilog", "-V"),
     ("yosys", "yosys", "-V"),

@@ -4,6 +4,7 @@
 //! `#` starts a comment, and empty lines are passed over.
 
 use super::SET;
+use crate::stimulus::{quoted, read_bounded};
 use relief_models::mesh::{InputError, Place};
 use std::collections::HashMap;
 use std::path::Path;
@@ -22,13 +23,8 @@ pub struct GridTriangle {
 /// # Errors
 /// Where in the file something is wrong, and what would be right.
 pub fn read_grid(path: &Path) -> Result<Vec<GridTriangle>, InputError> {
-    let name = path.display().to_string();
-    let fail = |message: String| InputError { file: name.clone(), place: Place::File, message };
-    if path.is_dir() {
-        return Err(fail("is a folder; a grid file is expected".into()));
-    }
-    let bytes = std::fs::read(path).map_err(|error| fail(format!("cannot be opened: {error}")))?;
-    parse_grid(&name, &bytes)
+    let bytes = read_bounded(path, "a grid file")?;
+    parse_grid(&path.display().to_string(), &bytes)
 }
 
 /// Reads a grid from the bytes of a file that errors call `name`.
@@ -89,10 +85,4 @@ fn parse_line(line: &[u8]) -> Result<Option<GridTriangle>, String> {
             Err(format!("field {field} {} is one too many; the line should end after nine coordinates", quoted(word)))
         }
     }
-}
-
-/// A word of a file in backquotes: shortened, and without control characters.
-fn quoted(word: &[u8]) -> String {
-    let shown = String::from_utf8_lossy(&word[..word.len().min(40)]).escape_debug().to_string();
-    if word.len() > 40 { format!("`{shown}...`") } else { format!("`{shown}`") }
 }
