@@ -5,6 +5,7 @@
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
 pub mod fixed;
+pub mod map;
 pub mod mesh;
 pub mod remesher;
 pub mod step;
