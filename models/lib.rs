@@ -9,6 +9,7 @@ pub mod fixed;
 pub mod map;
 pub mod mesh;
 pub mod remesher;
+pub mod scene;
 pub mod step;
 pub mod strip_unit;
 pub mod vertex_adder;
