@@ -8,6 +8,7 @@ pub mod body;
 pub mod fixed;
 pub mod map;
 pub mod mesh;
+pub mod raster;
 pub mod remesher;
 pub mod scene;
 pub mod step;
