@@ -4,9 +4,13 @@
 //! This crate knows nothing of rust-hdl, so the reference cannot share a helper, and with it a bug, with the hardware.
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
+pub mod body;
 pub mod fixed;
+pub mod map;
 pub mod mesh;
+pub mod raster;
 pub mod remesher;
+pub mod scene;
 pub mod step;
 pub mod strip_unit;
 pub mod vertex_adder;

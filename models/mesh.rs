@@ -39,9 +39,9 @@ mod build;
 mod check;
 mod edges;
 mod exact;
-mod fields;
+pub(crate) mod fields;
 mod points;
-mod read_obj;
+pub(crate) mod read_obj;
 mod read_ply;
 mod read_text;
 mod report;
@@ -99,7 +99,7 @@ pub enum Place {
     Byte(u64),
 }
 
-/// Why a file cannot be read as a mesh: `file:line: sentence`.
+/// Why a file cannot be read as a mesh, a map or a scene: `file:line: sentence`.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{file}{}: {message}", Suffix(*.place))]
 pub struct InputError {
@@ -124,7 +124,7 @@ impl fmt::Display for Suffix {
 }
 
 impl InputError {
-    fn new(file: &str, place: Place, message: impl Into<String>) -> InputError {
+    pub(crate) fn new(file: &str, place: Place, message: impl Into<String>) -> InputError {
         InputError { file: file.to_owned(), place, message: message.into() }
     }
 }

@@ -4,13 +4,13 @@
 use super::exact::Scaled;
 
 /// Words of a line, separated by ASCII white space, counted from 1.
-pub(super) struct Fields<'a> {
+pub(crate) struct Fields<'a> {
     rest: &'a [u8],
     index: usize,
 }
 
 impl<'a> Fields<'a> {
-    pub(super) fn new(line: &'a [u8]) -> Fields<'a> {
+    pub(crate) fn new(line: &'a [u8]) -> Fields<'a> {
         Fields { rest: line, index: 0 }
     }
 
@@ -21,7 +21,7 @@ impl<'a> Fields<'a> {
 
     /// The next word.
     #[inline]
-    pub(super) fn next(&mut self) -> Option<&'a [u8]> {
+    pub(crate) fn next(&mut self) -> Option<&'a [u8]> {
         let start = self.rest.iter().position(|byte| !is_space(*byte))?;
         let word = &self.rest[start..];
         let end = word.iter().position(|byte| is_space(*byte)).unwrap_or(word.len());
@@ -32,7 +32,7 @@ impl<'a> Fields<'a> {
 
     /// The next word, or the sentence that it is missing.
     #[inline]
-    pub(super) fn expect(&mut self, what: &str) -> Result<&'a [u8], String> {
+    pub(crate) fn expect(&mut self, what: &str) -> Result<&'a [u8], String> {
         self.next().ok_or_else(|| format!("field {} is missing; {what} is expected", self.index + 1))
     }
 
@@ -51,7 +51,7 @@ impl<'a> Fields<'a> {
     }
 
     /// A sentence about the word that was read last.
-    pub(super) fn wrong(&self, word: &[u8], what: &str) -> String {
+    pub(crate) fn wrong(&self, word: &[u8], what: &str) -> String {
         format!("field {} {} {what}", self.index, quoted(word))
     }
 }
@@ -63,14 +63,14 @@ pub(super) fn is_space(byte: u8) -> bool {
 }
 
 /// A word of a file in backquotes: shortened, and without control characters.
-pub(super) fn quoted(word: &[u8]) -> String {
+pub(crate) fn quoted(word: &[u8]) -> String {
     let shown = String::from_utf8_lossy(&word[..word.len().min(40)]).escape_debug().to_string();
     if word.len() > 40 { format!("`{shown}...`") } else { format!("`{shown}`") }
 }
 
 /// An optional sign and 1 to 19 digits; `None` on anything else and on overflow.
 #[inline]
-pub(super) fn parse_integer(word: &[u8]) -> Option<i64> {
+pub(crate) fn parse_integer(word: &[u8]) -> Option<i64> {
     let (negative, digits) = match word {
         [b'-', rest @ ..] => (true, rest),
         [b'+', rest @ ..] => (false, rest),

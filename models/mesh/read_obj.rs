@@ -51,6 +51,11 @@ const SKIPPED: &[&[u8]] = &[
     b"csh",
 ];
 
+/// Whether a word begins a statement that says nothing about triangles.
+pub(crate) fn is_skipped(word: &[u8]) -> bool {
+    SKIPPED.contains(&word)
+}
+
 struct ObjParser;
 
 struct ObjBlock {
@@ -128,7 +133,7 @@ impl BlockParser for ObjParser {
                     }
                     indexed.runs.push(Run { first: indexed.triangles.len(), base, place });
                 }
-                Some(word) if SKIPPED.contains(&word) => {}
+                Some(word) if is_skipped(word) => {}
                 Some(word) => {
                     let message =
                         format!("{} is no OBJ statement; `v`, `f`, `g` or the like is expected", quoted(word));
