@@ -22,7 +22,7 @@ mod chain;
 mod grid;
 mod verilog;
 
-pub use chain::{Chain, Counts};
+pub use chain::{Chain, Counts, TrianglePorts};
 pub use grid::{GridTriangle, parse_grid, read_grid};
 
 use crate::binding::Beat;

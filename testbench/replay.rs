@@ -94,6 +94,11 @@ impl Replay {
         &self.session.design().top
     }
 
+    /// Cycles compared so far.
+    pub fn followed(&self) -> u64 {
+        self.done - RESET as u64
+    }
+
     /// Whether enough cycles are noted to be run.
     pub fn is_full(&self) -> bool {
         self.stimulus.len() >= BATCH

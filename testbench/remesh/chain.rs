@@ -8,7 +8,7 @@ use crate::remesher::RemesherBinding;
 use crate::scoreboard::PATIENCE;
 use crate::strip_unit::StripUnitBinding;
 use relief_hdl::widths::WidthSet;
-use relief_models::step::{LeftCommand, RightCommand};
+use relief_models::step::{LeftCommand, MAX_COMPONENTS, RightCommand, Vertex};
 
 /// What a run has counted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -61,7 +61,7 @@ pub struct TrianglePorts {
 }
 
 impl TrianglePorts {
-    fn of(layout: &Layout, set: &WidthSet) -> Self {
+    pub(crate) fn of(layout: &Layout, set: &WidthSet) -> Self {
         let find = |name: &str| layout.output(name);
         Self {
             valid: layout.out_valid,
@@ -76,18 +76,24 @@ impl TrianglePorts {
         }
     }
     /// A beat stands at the output. The sink behind it takes every one.
-    pub(super) fn valid(&self, outputs: &[u64]) -> bool {
+    pub(crate) fn valid(&self, outputs: &[u64]) -> bool {
         outputs[self.valid] == 1
     }
     /// It is the last one of its base triangle.
-    pub(super) fn last(&self, outputs: &[u64]) -> bool {
+    pub(crate) fn last(&self, outputs: &[u64]) -> bool {
         outputs[self.last] == 1
     }
     /// The first three components of the triangles of a cycle, in winding order: none to two.
     pub fn triangles(&self, outputs: &[u64]) -> impl Iterator<Item = Triangle> + use<> {
+        self.vertices(outputs).map(|triangle| triangle.map(|vertex| [vertex[0], vertex[1], vertex[2]]))
+    }
+    /// The triangles of a cycle with all components, in winding order: none to two.
+    pub fn vertices(&self, outputs: &[u64]) -> impl Iterator<Item = [Vertex; 3]> + use<> {
         let vertex = |k: usize| {
-            let lanes = unpack(&outputs[self.vertices[k]..], self.components.min(3), self.vertex_bits);
-            std::array::from_fn::<_, 3, _>(|axis| lanes.get(axis).copied().unwrap_or(0))
+            let mut vertex = [0; MAX_COMPONENTS];
+            let lanes = unpack(&outputs[self.vertices[k]..], self.components, self.vertex_bits);
+            vertex[..self.components].copy_from_slice(&lanes);
+            vertex
         };
         let [left, right, next_left, next_right] = [0, 1, 2, 3].map(vertex);
         let valid = self.valid(outputs);
