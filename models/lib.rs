@@ -6,7 +6,10 @@
 
 pub mod fixed;
 pub mod mesh;
+pub mod power;
+pub mod reciprocal;
 pub mod remesher;
+pub mod rsqrt;
 pub mod step;
 pub mod strip_unit;
 pub mod vertex_adder;
