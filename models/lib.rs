@@ -4,8 +4,15 @@
 //! This crate knows nothing of rust-hdl, so the reference cannot share a helper, and with it a bug, with the hardware.
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
+pub mod cull;
+pub mod displace;
+pub mod draw;
+pub mod face_normal;
+pub mod filter_level;
 pub mod fixed;
+pub mod light;
 pub mod mesh;
+pub mod perspective_correct;
 pub mod power;
 pub mod reciprocal;
 pub mod remesher;
@@ -13,3 +20,4 @@ pub mod rsqrt;
 pub mod step;
 pub mod strip_unit;
 pub mod vertex_adder;
+pub mod vertex_transform;
