@@ -5,12 +5,23 @@
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
 pub mod body;
+pub mod cull;
+pub mod displace;
+pub mod draw;
+pub mod face_normal;
+pub mod filter_level;
 pub mod fixed;
+pub mod light;
 pub mod map;
 pub mod mesh;
+pub mod perspective_correct;
+pub mod power;
 pub mod raster;
+pub mod reciprocal;
 pub mod remesher;
+pub mod rsqrt;
 pub mod scene;
 pub mod step;
 pub mod strip_unit;
 pub mod vertex_adder;
+pub mod vertex_transform;
