@@ -6,6 +6,8 @@
 
 pub mod fixed;
 pub mod mesh;
+pub mod mip_build;
+pub mod mip_fetch;
 pub mod remesher;
 pub mod step;
 pub mod strip_unit;
