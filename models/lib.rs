@@ -14,6 +14,8 @@ pub mod fixed;
 pub mod light;
 pub mod map;
 pub mod mesh;
+pub mod mip_build;
+pub mod mip_fetch;
 pub mod perspective_correct;
 pub mod power;
 pub mod raster;

@@ -20,6 +20,8 @@ pub mod binding;
 pub mod check;
 pub mod cosim;
 pub mod device;
+pub mod mip_build;
+pub mod mip_fetch;
 pub mod output;
 pub mod pipeline;
 pub mod probe;

@@ -238,7 +238,8 @@ impl Pipeline {
             if let Some(words) = &sent[REMESHER] {
                 let step = step_of(self.set, words);
                 let number = gone + waiting.len() as u64;
-                let vertices = [(step.sends_left(), false, &step.left_vertex), (step.sends_right(), true, &step.right_vertex)];
+                let vertices =
+                    [(step.sends_left(), false, &step.left_vertex), (step.sends_right(), true, &step.right_vertex)];
                 let mut lacking = 0;
                 for (_, right, vertex) in vertices.into_iter().filter(|(sends, ..)| *sends) {
                     let request = draw.request(vertex);

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads a texel of a pyramid's level, the nearest one or between four.
+//!
+//! ```text
+//! i = floor(u / 2^L), a = the 12 bits below it; j and b from v likewise     (u, v in texels of level 0)
+//! bilinear: q = floor((t00 (4096 - a)(4096 - b) + t10 a (4096 - b) + t01 (4096 - a) b + t11 a b) / 2^16 + 1/2)
+//! nearest:  q = 256 t, t the texel next to (u, v): the right one for a >= 2048, the lower one for b >= 2048
+//! clamp axis: i and i + 1 are clamped to the last sample
+//! repeat axis: one period is taken off if need be; at two periods and beyond it is an error, and the last sample
+//! ```
+//!
+//! | field  | format  | range |
+//! |--------|---------|-------|
+//! | u, v   | UQ13.16 | whole; below two periods on a repeat axis |
+//! | level  | 4 bits  | whole; beyond the last level it is the last level |
+//! | result | UQ16.8  | 0 ..= 65535.0 |
+//!
+//! Example: between texels 100 and 200, a quarter of the way (u = 0.25): 125.0 = 0x7d00.
+//!
+//! Error: 1/2 unit of the result (round half up) at points with 12 fraction bits at their level. Other points are read
+//! at the next such point below, less than 2^-12 texels of the level away. The result is monotone in every texel, and
+//! on a node it is the texel.
+//!
+//! The memory has four banks, so that all four texels come in one cycle: texel (i, j) of level L stands in bank
+//! (j & 1) * 2 + (i & 1), word base[L] + (j >> 1) * pitch[L] + (i >> 1).
+
+use crate::fixed::shift_round_half_up;
+use crate::mip_build::{Level, MAX_LEVELS, Pyramid, Wrap};
+
+/// Fraction bits of a coordinate.
+pub const FRACTION_BITS: u32 = 16;
+/// Bits of a coordinate.
+pub const COORDINATE_BITS: u32 = 29;
+/// Bits of a weight.
+pub const WEIGHT_BITS: u32 = 12;
+
+/// How a value is made of texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Filter {
+    /// The nearest texel.
+    Nearest,
+    /// Linear in both directions between four texels.
+    Bilinear,
+}
+
+/// A value, and whether a coordinate lay beyond two periods of a repeat axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fetched {
+    /// UQ16.8.
+    pub value: u32,
+    /// The value is that of the last sample instead.
+    pub error: bool,
+}
+
+/// Where a level stands in the memory.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Placement {
+    /// Samples in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// First word in every bank.
+    pub base: usize,
+    /// Words from a row to the second next one, half a row.
+    pub pitch: usize,
+    /// The borders of the axes u and v.
+    pub wrap: [Wrap; 2],
+}
+
+impl Placement {
+    /// Bank and word of the sample in column `i` of row `j`.
+    pub fn place(&self, i: usize, j: usize) -> (usize, usize) {
+        ((j & 1) * 2 + (i & 1), self.base + (j >> 1) * self.pitch + (i >> 1))
+    }
+    /// Words that the level takes in every bank.
+    pub fn words(&self) -> usize {
+        self.pitch * self.height.div_ceil(2)
+    }
+    /// The level can be read without conflicts: it has samples, its rows do not overlap, and its periods are even.
+    pub fn is_sound(&self) -> bool {
+        let odd = |side: usize, wrap| wrap == Wrap::Repeat && side % 2 == 1;
+        self.width > 0
+            && self.height > 0
+            && self.pitch >= self.width.div_ceil(2)
+            && !odd(self.width, self.wrap[0])
+            && !odd(self.height, self.wrap[1])
+    }
+}
+
+impl Pyramid {
+    /// Where the levels stand in the memory, one behind the other.
+    pub fn layout(&self) -> Vec<Placement> {
+        let mut base = 0;
+        let place = |level: &Level| {
+            let (width, height) = (level.width, level.height);
+            let placement = Placement { width, height, base, pitch: width.div_ceil(2), wrap: self.wrap };
+            base += placement.words();
+            placement
+        };
+        self.levels.iter().map(place).collect()
+    }
+    /// Words that the pyramid takes in every bank.
+    pub fn bank_words(&self) -> usize {
+        self.layout().iter().map(Placement::words).sum()
+    }
+}
+
+/// Two neighbours on an axis, the weight of the second one in 4096ths, and whether the coordinate was out of range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Taps {
+    first: usize,
+    second: usize,
+    weight: i64,
+    error: bool,
+}
+
+fn taps(coordinate: u32, level: usize, side: usize, wrap: Wrap, filter: Filter) -> Taps {
+    let shifted = (u64::from(coordinate) & ((1 << COORDINATE_BITS) - 1)) >> level;
+    let index = (shifted >> FRACTION_BITS) as usize;
+    let fraction = ((shifted >> (FRACTION_BITS - WEIGHT_BITS)) & ((1 << WEIGHT_BITS) - 1)) as i64;
+    let last = side - 1;
+    let (first, second, error) = match wrap {
+        Wrap::Clamp => (index.min(last), (index + 1).min(last), false),
+        Wrap::Repeat if index < 2 * side => (index % side, (index + 1) % side, false),
+        Wrap::Repeat => (last, last, true),
+    };
+    let weight = match filter {
+        Filter::Bilinear => fraction,
+        Filter::Nearest => (fraction >> (WEIGHT_BITS - 1)) << WEIGHT_BITS,
+    };
+    Taps { first, second, weight, error }
+}
+
+/// The value between four texels, weights in 4096ths: UQ16.8, rounded half up, once.
+fn blend(texels: [u16; 4], a: i64, b: i64) -> u32 {
+    let [t00, t10, t01, t11] = texels.map(i64::from);
+    let one = 1 << WEIGHT_BITS;
+    let sum = t00 * (one - a) * (one - b) + t10 * a * (one - b) + t01 * (one - a) * b + t11 * a * b;
+    shift_round_half_up(sum, 2 * WEIGHT_BITS - 8) as u32
+}
+
+/// The value at (u, v) of a level, UQ16.8.
+pub fn fetch(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) -> u32 {
+    fetch_checked(pyramid, level, u, v, filter).value
+}
+
+/// The value at (u, v) of a level, and whether it is an error.
+pub fn fetch_checked(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) -> Fetched {
+    let level = level.min(pyramid.levels.len() - 1);
+    let samples = &pyramid.levels[level];
+    let x = taps(u, level, samples.width, pyramid.wrap[0], filter);
+    let y = taps(v, level, samples.height, pyramid.wrap[1], filter);
+    let texel = |i, j| samples.at(i, j);
+    let texels =
+        [texel(x.first, y.first), texel(x.second, y.first), texel(x.first, y.second), texel(x.second, y.second)];
+    Fetched { value: blend(texels, x.weight, y.weight), error: x.error || y.error }
+}
+
+/// Exact reference: the value at (u, v) texels of level 0, clamped, with real weights.
+pub fn exact(pyramid: &Pyramid, level: usize, u: f64, v: f64) -> f64 {
+    let samples = &pyramid.levels[level];
+    let scale = f64::from(1u32 << level);
+    let axis = |coordinate: f64, side: usize, wrap: Wrap| {
+        let at = coordinate / scale;
+        let index = |offset: f64| match wrap {
+            Wrap::Clamp => (at.floor() + offset).min(side as f64 - 1.0) as usize,
+            Wrap::Repeat => (at.floor() + offset) as usize % side,
+        };
+        (index(0.0), index(1.0), at - at.floor())
+    };
+    let (i0, i1, a) = axis(u, samples.width, pyramid.wrap[0]);
+    let (j0, j1, b) = axis(v, samples.height, pyramid.wrap[1]);
+    let texel = |i, j| f64::from(samples.at(i, j));
+    let upper = texel(i0, j0) * (1.0 - a) + texel(i1, j0) * a;
+    let lower = texel(i0, j1) * (1.0 - a) + texel(i1, j1) * a;
+    upper * (1.0 - b) + lower * b
+}
+
+/// What a beat of the memory says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Command {
+    /// Where a level stands; levels come in order, and the sizes of the levels above are forgotten.
+    Size {
+        /// The level.
+        level: usize,
+        /// Its place.
+        placement: Placement,
+    },
+    /// A sample.
+    Load {
+        /// The level.
+        level: usize,
+        /// Column.
+        i: usize,
+        /// Row.
+        j: usize,
+        /// The sample.
+        value: u16,
+    },
+    /// A request.
+    Fetch {
+        /// The level.
+        level: usize,
+        /// UQ13.16.
+        u: u32,
+        /// UQ13.16.
+        v: u32,
+        /// The filter.
+        filter: Filter,
+    },
+}
+
+/// Golden model of the memory: levels, the samples loaded, and the sticky error.
+///
+/// A sample that was not loaded since the size of its level reads as zero here and as anything in hardware.
+#[derive(Clone, Debug)]
+pub struct MipFetch {
+    levels: Vec<(Placement, Level)>,
+    bank_words: usize,
+    error: bool,
+}
+
+impl MipFetch {
+    /// An empty memory of four banks of `bank_words` words.
+    pub const fn new(bank_words: usize) -> Self {
+        Self { levels: Vec::new(), bank_words, error: false }
+    }
+
+    /// Sticky: a size that cannot be used, a load outside of its level or of the memory, a fetch before a size, beyond
+    /// two periods, or outside of the memory.
+    pub const fn error(&self) -> bool {
+        self.error
+    }
+
+    /// Takes one beat; a fetch gives its value.
+    pub fn accept(&mut self, command: &Command) -> Option<u32> {
+        match *command {
+            Command::Size { level, placement } => {
+                if level > self.levels.len() || level >= MAX_LEVELS {
+                    self.error = true;
+                    return None;
+                }
+                self.levels.truncate(level);
+                if placement.is_sound() {
+                    let Placement { width, height, .. } = placement;
+                    self.levels.push((placement, Level { width, height, samples: vec![0; width * height] }));
+                } else {
+                    self.error = true;
+                }
+                None
+            }
+            Command::Load { level, i, j, value } => {
+                let bank_words = self.bank_words;
+                match self.levels.get_mut(level) {
+                    Some((placement, samples))
+                        if i < samples.width && j < samples.height && placement.place(i, j).1 < bank_words =>
+                    {
+                        samples.samples[j * samples.width + i] = value;
+                    }
+                    _ => self.error = true,
+                }
+                None
+            }
+            Command::Fetch { level, u, v, filter } => Some(self.fetch(level, u, v, filter)),
+        }
+    }
+
+    fn fetch(&mut self, level: usize, u: u32, v: u32, filter: Filter) -> u32 {
+        let Some(last) = self.levels.len().checked_sub(1) else {
+            self.error = true;
+            return 0;
+        };
+        let level = level.min(last);
+        let (placement, samples) = &self.levels[level];
+        let x = taps(u, level, samples.width, placement.wrap[0], filter);
+        let y = taps(v, level, samples.height, placement.wrap[1], filter);
+        // A word beyond the memory reads as zero.
+        let mut beyond = false;
+        let mut texel = |i, j| {
+            let inside = placement.place(i, j).1 < self.bank_words;
+            beyond |= !inside;
+            if inside { samples.at(i, j) } else { 0 }
+        };
+        let texels =
+            [texel(x.first, y.first), texel(x.second, y.first), texel(x.first, y.second), texel(x.second, y.second)];
+        self.error |= x.error || y.error || beyond;
+        blend(texels, x.weight, y.weight)
+    }
+}
