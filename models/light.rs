@@ -56,6 +56,13 @@ impl Material {
         shininess: 24,
     };
 
+    /// One colour (red, green, blue of 0 to 1), a little darker in the depths, under the same sky.
+    pub fn plain(colour: [f64; 3]) -> Material {
+        // UQ0.16 with 1.0 cut to its largest value.
+        let part = |share: f64| colour.map(|part| (part * share * 65536.0).clamp(0.0, 65535.0) as u32);
+        Material { ramp: [0.70, 0.80, 0.90, 0.96, 1.0].map(part), ..Self::TERRAIN }
+    }
+
     /// The colour at the mean of three heights, UQ16.8 each.
     pub fn albedo(&self, heights: [i64; 3]) -> [u32; 3] {
         // 26 bits of sum; 0xAAAB / 2^17 is a third, so 16 bits are left.

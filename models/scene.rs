@@ -93,8 +93,8 @@ pub struct Object {
     pub wrap: [Wrap; 2],
     /// Whether `v = 0` and `v = 1` are poles: a row of the map each, but one point of the body.
     pub poles: bool,
-    /// Red, green and blue of its surface, 0 to 1.
-    pub colour: [f64; 3],
+    /// Red, green and blue of its surface, 0 to 1; none for the colours of terrain, by height.
+    pub colour: Option<[f64; 3]>,
 }
 
 /// Light from far away.

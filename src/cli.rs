@@ -16,6 +16,7 @@ pub mod check_mesh;
 pub mod emit;
 mod output;
 pub mod remesh;
+pub mod run;
 mod select;
 pub mod sim;
 

@@ -19,6 +19,7 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    Run(cli::run::Arguments),
     Blocks(cli::blocks::Arguments),
     Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         std::process::exit(130);
     });
     let outcome = match Arguments::parse().command {
+        Command::Run(arguments) => cli::run::run(&arguments),
         Command::Blocks(arguments) => cli::blocks::run(&arguments),
         Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),

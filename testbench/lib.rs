@@ -10,6 +10,7 @@
 //! | [`stimulus`] | beats from a file |
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
 //! | [`output`] | files and folders that appear whole or not at all |
+//! | [`frame`] | a scene to pictures, a mesh and a report |
 //! | [`pipeline`] | a draw through remesher, height fetch and strip unit, compared as it runs |
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
 //! | [`replay`] | a block's Verilog in Verilator, run behind the block in batches |
@@ -20,6 +21,7 @@ pub mod binding;
 pub mod check;
 pub mod cosim;
 pub mod device;
+pub mod frame;
 pub mod mip_build;
 pub mod mip_fetch;
 pub mod output;

@@ -38,8 +38,8 @@ pub(super) fn resolve(
         );
     }
     let at = vector("at", object.at)?;
-    let colour = object.colour.unwrap_or([0.80, 0.74, 0.64]);
-    for part in colour {
+    let colour = object.colour;
+    for part in colour.into_iter().flatten() {
         within("colour", part, 0.0, 1.0)?;
     }
     let mut body = base::resolve(&object.mesh, folder, warnings)?;

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief run`: a scene through the pipeline, to pictures, a mesh, a waveform, Verilog and a report.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::io::{stderr, stdout};
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use relief_hdl::widths::default;
+use relief_models::mesh::Progress;
+use relief_models::scene;
+use relief_testbench::binding::find;
+use relief_testbench::check::{self, emission};
+use relief_testbench::frame::{Report, render};
+use relief_testbench::output::{OutputFile, OutputFolder};
+use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
+
+use super::{Meter, Outcome, Result, write_all};
+
+/// Take a scene with a height map through the displacement pipeline
+///
+/// Base triangles go through transform, culling, remesher, level choice, height fetch, displacement, strip unit, light and
+/// rasteriser. Remesher, height fetch and strip unit run as hardware, and every beat of them is compared with its golden
+/// model; the report says which stages are golden. docs/scene.md tells what a scene file holds.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// The scene (TOML)
+    scene: PathBuf,
+    /// The folder for frame.png, mesh.png, mesh.obj, pipeline.vcd, pipeline.gtkw, report.json and rtl/
+    #[arg(long, value_name = "DIR", default_value = "out")]
+    out: PathBuf,
+    /// What the hardware runs in
+    #[arg(long, value_enum, default_value_t = Engine::Rust)]
+    engine: Engine,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Engine {
+    /// The blocks in Rust
+    Rust,
+    /// In Rust, and their Verilog in Verilator behind them, compared cycle by cycle
+    Verilator,
+    /// Verilator where it is installed, otherwise Rust
+    Auto,
+}
+
+/// Cycles of the waveform.
+const WAVEFORM: u64 = 2_000;
+
+/// Reads, draws and writes.
+pub fn run(arguments: &Arguments) -> Result {
+    let begun = Instant::now();
+    let scene = scene::read(&arguments.scene)?;
+    for warning in &scene.warnings {
+        write_all(stderr(), &format!("warning: {warning}\n"))?;
+    }
+    let verilator = match arguments.engine {
+        Engine::Rust => false,
+        Engine::Auto => check::Engine::Verilator.missing().is_none(),
+        Engine::Verilator => match check::Engine::Verilator.missing() {
+            Some(missing) => return Err(missing.into()),
+            None => true,
+        },
+    };
+    // Every output is opened before the work.
+    let out = &arguments.out;
+    fs::create_dir_all(out).map_err(|error| format!("{}: the folder cannot be made: {error}", out.display()))?;
+    let open = |name: &str| OutputFile::open(&out.join(name));
+    let files = [open("frame.png")?, open("mesh.png")?, open("mesh.obj")?, open("report.json")?];
+    let rtl = BLOCKS.map(|name| OutputFolder::open(&out.join("rtl").join(name)));
+
+    let set = &relief_hdl::widths::WIDTH_SETS[0];
+    debug_assert_eq!(*set, default::SET);
+    let meter = Meter::new();
+    let mut pipeline = Pipeline::new(set);
+    let folder = tempfile::tempdir()?;
+    if verilator {
+        meter.phase("building", 0);
+        pipeline.follow(folder.path())?;
+    }
+    let recording = PipelineRecording::new(&pipeline, &out.join("pipeline.vcd"), 0..WAVEFORM)?;
+    let rendered = render(&scene, set, &mut pipeline, Some(recording), &meter);
+    meter.finish();
+    let (mut rendered, recording) = match rendered {
+        Ok(rendered) => rendered,
+        Err(error) if error.is_mismatch() => {
+            write_all(stderr(), &format!("mismatch: {error}\n"))?;
+            return Ok(Outcome::Mismatch);
+        }
+        Err(error) => return Err(format!("{}: {error}", arguments.scene.display()).into()),
+    };
+
+    let stale = |name: &str| name.starts_with("relief_");
+    for (name, folder) in BLOCKS.into_iter().zip(rtl) {
+        let folder = folder?;
+        let block = find(name).ok_or("a block of the pipeline is not in the list")?;
+        emission(block, set)?.write(folder.path())?;
+        folder.commit(stale)?;
+    }
+    if let Some(recording) = recording {
+        recording.finish()?;
+    }
+    let json = serde_json::to_string_pretty(&rendered.report)? + "\n";
+    let obj = std::mem::take(&mut rendered.obj);
+    let contents = [rendered.frame.png()?, rendered.edges.png()?, obj.into_bytes(), json.into_bytes()];
+    for (mut file, content) in files.into_iter().zip(contents) {
+        std::io::Write::write_all(&mut file, &content)?;
+        file.commit()?;
+    }
+    write_all(stdout(), &table(&rendered.report, begun.elapsed().as_secs_f64(), out))?;
+    Ok(Outcome::Agreed)
+}
+
+fn table(report: &Report, seconds: f64, out: &Path) -> String {
+    let counts = &report.pipeline;
+    let part = |a: u64, b: u64| if b == 0 { 0.0 } else { a as f64 / b as f64 };
+    let culled: u64 = report.assembled.culled.iter().sum();
+    let dropped: u64 = report.assembled.dropped.iter().sum();
+    let mut text = String::new();
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:26} {value}");
+    };
+    row("base triangles", format!("{} ({culled} culled, {dropped} dropped)", report.base_triangles));
+    row("triangles", format!("{} ({} not drawn)", counts.triangles, report.invalid_triangles));
+    row(
+        "vertices displaced",
+        format!("{} ({:.3} a triangle)", counts.vertices, part(counts.vertices, counts.triangles)),
+    );
+    let two = 2.0 * part(counts.cycles, counts.triangles);
+    row("cycles", format!("{} ({two:.3} for two triangles)", counts.cycles));
+    row("  of them waiting", format!("{} for vertices, {} for set-up", counts.stalled, counts.silent));
+    row("cycles to load the map", counts.load_cycles.to_string());
+    row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
+    for block in &report.hardware {
+        let behind = match block.followed_cycles {
+            0 => String::new(),
+            cycles => format!(", {cycles} cycles in Verilator"),
+        };
+        row(&format!("hardware: {}", block.name), format!("{} beats equal golden{behind}", block.beats));
+    }
+    row("golden models", report.golden.join(", "));
+    row("mismatches", report.mismatches.to_string());
+    row("time", format!("{seconds:.1} s"));
+    row("written to", out.display().to_string());
+    text
+}
