@@ -9,7 +9,7 @@
 //! | peaks | three hills and two hollows, Gaussians over 3 x and 3 y |
 //! | paraboloid | `1 - (x^2 + y^2) / 2` |
 //! | checkerboard | 0 and 1 in 8 x 8 squares |
-//! | cosine | `1/2 + cos(8 pi u') (1 - cos(4 pi v)) / 4`, `u' = i / width`: a period in u, constant on the first and last row |
+//! | cosine | `1/2 + cos(16 pi u') (1 - cos(6 pi v)) (1 - cos(2 pi v)) / 8`, `u' = i / width`: a period in u, constant on the first and last row |
 //! | ramp | `u` |
 
 use std::f64::consts::PI;
@@ -99,7 +99,8 @@ fn half_donut(x: f64, y: f64) -> f64 {
 }
 
 fn cosine(u: f64, v: f64) -> f64 {
-    0.5 + libm::cos(8.0 * PI * u) * (1.0 - libm::cos(4.0 * PI * v)) / 4.0
+    let rows = (1.0 - libm::cos(6.0 * PI * v)) * (1.0 - libm::cos(2.0 * PI * v));
+    0.5 + libm::cos(16.0 * PI * u) * rows / 8.0
 }
 
 /// The well-known test surface, from its least (-6.5511) to its greatest value (8.1062) on the square of side 6.

@@ -314,6 +314,16 @@ fn scene_of_the_repository_are_read() {
     assert_eq!(count, 6);
 }
 
+#[test]
+fn scene_page_shows_a_scene() {
+    let root = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+    let page = std::fs::read_to_string(root.join("docs/scene.md")).unwrap();
+    let example = page.split("```toml\n").nth(1).and_then(|rest| rest.split("```").next()).unwrap();
+    let scene = parse(example, "docs/scene.md", &root.join("scenes")).unwrap();
+    assert_eq!((scene.objects.len(), scene.warnings.len()), (2, 0));
+    assert_eq!(scene.objects[1].wrap, [Wrap::Repeat, Wrap::Clamp]);
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(1_000))]
 

@@ -76,6 +76,10 @@ fn body_spherical_bodies_with_the_axis_anywhere() {
     let plain = mesh(&file(&octahedron(), |corner| corner));
     check(&plain, 4.0 * 3f64.sqrt());
     assert_eq!(plain.triangles.len(), 16);
+    // The same elsewhere, where the rounded centroid misses the axis and the plane of the seam by some 1e-17.
+    for place in [dvec3(0.1, 0.7, 0.3), dvec3(1.1, -0.3, 0.2), dvec3(1e3 / 3.0, 0.1, 1e5 / 7.0)] {
+        assert_eq!(mesh(&file(&octahedron(), |corner| corner + place)).triangles.len(), 16);
+    }
     // The axis through edges, and through the middles of triangles.
     check(&mesh(&file(&cube(), |corner| corner)), 24.0);
     check(&mesh(&file(&tetrahedron(), |corner| corner)), 8.0 * 3f64.sqrt());
