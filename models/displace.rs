@@ -26,7 +26,7 @@
 //! The result is a function of vertex data, height and per-draw constants, never of the triangle: that keeps the mesh
 //! closed. Error against f64: 0.016 pixels at 640 x 480 (`tests/displacement.rs`; rounding to 1/256 pixel is 0.002).
 //!
-//! Example: height of no displacement: den = 1.0, X' = X rounded to 1/256 pixel, c' = c - 1 unit at most.
+//! Example: height of no displacement: den = 1.0, X' = X rounded to 1/256 pixel, c' at most 2 units below c.
 
 use crate::reciprocal;
 use crate::rsqrt::normalize;

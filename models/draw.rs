@@ -358,12 +358,15 @@ impl Draw {
 
         let views: Vec<ViewVertex> = records.iter().map(|record| vertex_transform::view(&transform, record)).collect();
         let volume = volume(camera, [columns / 2.0 / focal, rows / 2.0 / focal], reach, near, unit, &views);
-        // The deepest vertex decides where the grid begins, and how exact seams are.
-        let deepest = views.iter().map(|view| view.position[2]).max().unwrap_or(z0).max(z0);
-        let c = ((i128::from(z0) << 31) / i128::from(deepest)) as i64;
+        // The deepest vertex decides where the grid begins, and how exact seams are; but what is near stays in the grid.
+        let depths = || views.iter().map(|view| view.position[2].max(z0));
+        let (nearest, deepest) = (depths().min().unwrap_or(z0), depths().max().unwrap_or(z0));
+        let c = |z: i64| ((i128::from(z0) << 31) / i128::from(z)).min(i32::MAX.into()) as i64;
+        let (nearest, c) = (vertex_transform::depth(&transform, c(nearest)), c(deepest));
         let last = (1i64 << (format.coordinate_bits - 1)) - 1;
+        // Below 32 octaves of 2^16 voxels.
         transform.grid_bias =
-            (vertex_transform::depth(&transform, (c - 2).max(1)) + 1 - last).clamp(0, last + 1) as i32;
+            (vertex_transform::depth(&transform, (c - 3).max(1)) - last).clamp(0, (nearest - 1 + last).max(0)) as i32;
         let texel_bits = axes[0].texel_bits.max(axes[1].texel_bits);
         let seams_are_exact = (1i64 << texel_bits) << 7 <= c;
         let (scale, shift) = mantissa(pixel);

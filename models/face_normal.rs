@@ -56,7 +56,11 @@ pub fn golden(pixel: &Pixel, [a, b, c]: [[i64; 3]; 3]) -> [i32; 3] {
 }
 
 /// The exact normal from f64 cross products, towards the viewer; `None` without area.
-pub fn exact(pixel: &Pixel, vertices: [[i64; 3]; 3]) -> Option<[f64; 3]> {
+///
+/// Starts at the nearest vertex: far ones are too large to leave anything of it in a difference.
+pub fn exact(pixel: &Pixel, mut vertices: [[i64; 3]; 3]) -> Option<[f64; 3]> {
+    let nearest = (0..3).max_by_key(|&k| vertices[k][2]).unwrap_or(0);
+    vertices.rotate_left(nearest);
     let s = f64::from(pixel.scale) * (-f64::from(pixel.shift)).exp2() / 256.0;
     let [a, b, c] = vertices.map(|v| {
         let c = v[2] as f64 / 2_147_483_648.0;

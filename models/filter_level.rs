@@ -26,8 +26,9 @@
 
 use serde::{Deserialize, Serialize};
 
-/// floor(sqrt(2) 2^23).
-const ROOT_OF_TWO: u32 = 0xb5_04f3;
+/// ceil(sqrt(2) 2^23): exact for every footprint of up to 24 bits. The floor, 0xb504f3, takes F = 0xb504f3 for larger than
+/// its threshold.
+const ROOT_OF_TWO: u32 = 0xb5_04f4;
 
 /// Per-draw constants of the level.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

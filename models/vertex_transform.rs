@@ -20,11 +20,11 @@
 //! | u c, v c | SQ0.31 | 2^texel_bits texels |
 //! | rho c    | SQ0.31 | 1024 density units, see [`filter_level`](crate::filter_level) |
 //!
-//! Errors: c at most 1.7 units below the true value (the reciprocal's 1.2 and the floor), X and Y
-//! 2^-29.7 of their value and a unit; a corner lies within 1/2 + 0.03 voxels of the true one at 1080 rows and cell 1
+//! Errors: c at most 2.2 units below the true value (the reciprocal's 1.2 and the floor) and 1 above it (z enters the
+//! reciprocal with 32 bits), X and Y 2^-29.7 of their value and a unit; a corner lies within 1/2 + 0.03 voxels of the true one at 1080 rows and cell 1
 //! (chords of 64 lines: 1 / (8 64^2 ln(1 + s cell)) voxels).
 //!
-//! Example: z = 2 z0, x = 0 -> c = 0x3FFF_FFFF (0.5), X = 0, corner z = octave.
+//! Example: z = 2 z0, x = 0 -> c = 0x3FFF_FFFF to within a unit (0.5), X = 0, corner z = octave.
 
 use crate::fixed::divide_round_half_up;
 use crate::step::{MAX_COMPONENTS, Vertex};

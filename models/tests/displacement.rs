@@ -110,12 +110,17 @@ impl Pyramid {
 
 /// Base triangle to displaced triangles, as the machine does it.
 fn displaced_triangles(draw: &Draw, base: &BaseTriangle, mut height: impl FnMut(Request) -> u32) -> Vec<[Vertex; 3]> {
+    heighten(draw, base, |v| height(draw.request(v)))
+}
+
+/// As `displaced_triangles`, with a height for each vertex.
+fn heighten(draw: &Draw, base: &BaseTriangle, mut height: impl FnMut(&Vertex) -> u32) -> Vec<[Vertex; 3]> {
     base.validate(&FORMAT).unwrap();
     let mut unit = StripUnit::new(FORMAT.column_depth);
     let mut out = Vec::new();
     remesher::golden(&FORMAT, base, &mut |step| {
         let mut step: Step = *step;
-        let mut displace = |v: &mut Vertex| *v = draw.displace(v, height(draw.request(v)));
+        let mut displace = |v: &mut Vertex| *v = draw.displace(v, height(v));
         if step.sends_left() {
             displace(&mut step.left_vertex);
         }
@@ -200,6 +205,46 @@ fn displaced_sphere_has_no_open_edge() {
     }
     println!("closed: {total} triangles, vertices by level {levels:?}");
     assert!(total > 100_000 && levels.iter().all(|&n| n > 0));
+}
+
+/// Open edges of the sphere under a map of `map` where `height` makes the height of a vertex; z/z0 is about 14,000.
+fn open_edges(cell_px: f64, map: &MapInfo, height: impl Fn(&Draw, &Pyramid, &Vertex) -> u32) -> usize {
+    let (vertices, triangles) = sphere(16, 8, 0.5);
+    let pyramid = Pyramid::new(map.width, map.height, map.levels, hills);
+    let view = CameraView { near: 0.003, ..camera(DVec3::new(0.3, -1.4, -2.2), DVec3::ZERO, cell_px) };
+    let mut draw = Draw::new(&view, &vertices, &triangles, map, [-0.02, 0.1], &FORMAT).unwrap();
+    assert!(draw.seams_are_exact());
+    draw.cull = false;
+    let mut edges = Edges::default();
+    for index in 0..triangles.len() {
+        let Assembled::Kept(pieces) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
+        for triangle in heighten(&draw, &pieces[0], |v| height(&draw, &pyramid, v)) {
+            edges.add(triangle.map(|v| [v[0], v[1], v[2]]));
+        }
+    }
+    edges.open().count()
+}
+
+#[test]
+fn sphere_opens_without_the_snap_and_off_the_nodes() {
+    let plain = |draw: &Draw, pyramid: &Pyramid, v: &Vertex| pyramid.fetch(draw.request(v));
+    assert_eq!(open_edges(4.0, &MAP, plain), 0);
+    // Counterexample to plain division: the seam column asks for u = period - something.
+    let without_snap = open_edges(4.0, &MAP, |draw, pyramid, v| {
+        let inverse = perspective_correct::inverse(v[lane::C]);
+        let [u, v_row] = [0, 1].map(|k| {
+            let axis = draw.axes[k];
+            let texel = perspective_correct::divide(v[lane::U + k], inverse, axis.texel_bits);
+            let period = i64::from(axis.size) << 16;
+            if axis.repeat { texel % period } else { texel.min(period - (1 << 16)) }
+        });
+        pyramid.fetch(Request { u: u as u32, v: v_row as u32, ..draw.request(v) })
+    });
+    // Counterexample to poles on any map: with 130 rows the last row, 129, lies between nodes of level 1, and the row
+    // before, which is not constant, takes part. Pole rows need height - 1 to be a multiple of 2^(levels - 1).
+    let off_the_nodes = open_edges(20.0, &MapInfo { height: 130, ..MAP }, plain);
+    println!("open edges: {without_snap} without the snap, {off_the_nodes} with 130 rows");
+    assert!(without_snap > 0 && off_the_nodes > 0);
 }
 
 /// The vertices along edge 0 of a base triangle, by their number from the low end.
@@ -442,7 +487,7 @@ fn displace_matches_f64() {
                 for k in 0..2 {
                     flat = flat.max((plain[k] as f64 / 256.0 - v[k] as f64 / 262_144.0).abs());
                 }
-                assert!((0..=4).contains(&(v[lane::C] - plain[2])), "{} {}", v[lane::C], plain[2]);
+                assert!((0..=2).contains(&(v[lane::C] - plain[2])), "{} {}", v[lane::C], plain[2]);
             };
             for piece in &pieces {
                 remesher::golden(&FORMAT, piece, &mut |step| {
