@@ -83,7 +83,7 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     levels: DataRegister<U<4>>,
     repeat_u: DataRegister<Bit>,
     repeat_v: DataRegister<Bit>,
-    cell: DataRegister<Bit>,
+    cells: DataRegister<Bit>,
     // The node that is read.
     read_at: DataRegister<U<A>>,
     read_valid: Register<Bit>,
@@ -132,7 +132,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, area, fold, odd_levels, even_levels);
-        dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cell);
+        dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
         dff_setup!(self, clock, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
         dff_setup!(self, clock, sent_last);
         self.out_valid.next = self.sent_valid.q.val();
@@ -146,13 +146,13 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
 
         // Sides above: w / 2 + 1 nodes, w / 2 where they repeat, cells rounded up.
         self.width_above.next = self.width.q.val() >> 1;
-        if self.cell.q.val() {
+        if self.cells.q.val() {
             self.width_above.next = (self.width.q.val() >> 1) + bit_cast_to::<U<M>>(self.width.q.val().get_bit(0));
         } else if !self.repeat_u.q.val() {
             self.width_above.next = (self.width.q.val() >> 1) + 1;
         }
         self.height_above.next = self.height.q.val() >> 1;
-        if self.cell.q.val() {
+        if self.cells.q.val() {
             self.height_above.next = (self.height.q.val() >> 1) + bit_cast_to::<U<M>>(self.height.q.val().get_bit(0));
         } else if !self.repeat_v.q.val() {
             self.height_above.next = (self.height.q.val() >> 1) + 1;
@@ -202,7 +202,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.fold.odd_row.next = self.row.q.val().get_bit(0);
         self.fold.first_row.next = self.row.q.val() == 0;
         self.fold.last_row.next = self.last_row.val();
-        self.fold.cell.next = self.cell.q.val();
+        self.fold.cells.next = self.cells.q.val();
         self.fold.repeat_u.next = self.repeat_u.q.val();
         self.fold.repeat_v.next = self.repeat_v.q.val();
         self.fold.width_above.next = self.width_above.val();
@@ -283,7 +283,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.levels.d.next = self.in_levels.val();
             self.repeat_u.d.next = self.in_repeat_u.val();
             self.repeat_v.d.next = self.in_repeat_v.val();
-            self.cell.d.next = self.in_cell.val();
+            self.cells.d.next = self.in_cell.val();
             self.read_valid.d.next = false;
             if self.running.val() {
                 self.failed.d.next = true;
@@ -315,6 +315,6 @@ ports! {
         inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_levels, in_value, out_ready;
         outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
         blocks: fold, odd_levels, even_levels;
-        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cell, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, odd_levels, even_levels
+        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, odd_levels, even_levels
     }
 }

@@ -62,7 +62,7 @@ pub struct MipFetch<const M: usize, const A: usize> {
     pub error: Output<Bit>,
     /// Levels that have a size.
     count: Register<U<4>>,
-    table: LevelTable<M, A>,
+    levels: LevelTable<M, A>,
     axis_u: MipAxis<M>,
     axis_v: MipAxis<M>,
     banks: MipBanks<M, A>,
@@ -75,13 +75,13 @@ pub struct MipFetch<const M: usize, const A: usize> {
     s1_load: Register<Bit>,
     s1_nearest: DataRegister<Bit>,
     s1_value: DataRegister<U<16>>,
-    s1_void: DataRegister<Bit>,
+    s1_blank: DataRegister<Bit>,
     // s2: the axes, and what the banks want of the record.
     s2_base: DataRegister<U<A>>,
     s2_pitch: DataRegister<U<M>>,
     s2_load: Register<Bit>,
     s2_value: DataRegister<U<16>>,
-    s2_void: DataRegister<Bit>,
+    s2_blank: DataRegister<Bit>,
     // s3 to s6: the banks. Weights a and b travel along.
     s3_weights: DataRegister<Lanes<2, 14>>,
     s4_weights: DataRegister<Lanes<2, 14>>,
@@ -137,9 +137,9 @@ impl<const M: usize, const A: usize> MipFetch<M, A> {
 impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, table, axis_u, axis_v, banks, bilinear);
-        dff_setup!(self, clock, count, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_void);
-        dff_setup!(self, clock, s2_base, s2_pitch, s2_load, s2_value, s2_void);
+        clock!(self, clock, levels, axis_u, axis_v, banks, bilinear);
+        dff_setup!(self, clock, count, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_blank);
+        dff_setup!(self, clock, s2_base, s2_pitch, s2_load, s2_value, s2_blank);
         dff_setup!(self, clock, s3_weights, s4_weights, s5_weights, s6_weights, s3_load, s4_load, failed);
         dff_setup!(self, clock, s1_sends, s2_sends, s3_sends, s4_sends, s5_sends, s6_sends);
         dff_setup!(self, clock, s7_sends, s8_sends, s9_sends, s10_sends, s11_sends, s12_sends);
@@ -152,7 +152,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.out_valid.next = self.s12_sends.q.val();
         self.out_value.next = self.bilinear.value.val();
         self.error.next = self.failed.q.val();
-        self.table.go.next = self.go.val();
+        self.levels.go.next = self.go.val();
         self.axis_u.go.next = self.go.val();
         self.axis_v.go.next = self.go.val();
         self.banks.go.next = self.go.val();
@@ -175,14 +175,14 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             && !(self.in_repeat_u.val() && self.in_width.val().get_bit(0))
             && !(self.in_repeat_v.val() && self.in_height.val().get_bit(0));
         self.in_order.next = self.in_level.val() <= self.count.q.val() && self.in_level.val() != 15;
-        self.table.write.next = self.sizes.val() && self.in_order.val() && self.sound.val();
-        self.table.level.next = self.level.val();
-        self.table.in_width.next = self.in_width.val();
-        self.table.in_height.next = self.in_height.val();
-        self.table.in_base.next = self.in_base.val();
-        self.table.in_pitch.next = self.in_pitch.val();
-        self.table.in_repeat_u.next = self.in_repeat_u.val();
-        self.table.in_repeat_v.next = self.in_repeat_v.val();
+        self.levels.write.next = self.sizes.val() && self.in_order.val() && self.sound.val();
+        self.levels.level.next = self.level.val();
+        self.levels.in_width.next = self.in_width.val();
+        self.levels.in_height.next = self.in_height.val();
+        self.levels.in_base.next = self.in_base.val();
+        self.levels.in_pitch.next = self.in_pitch.val();
+        self.levels.in_repeat_u.next = self.in_repeat_u.val();
+        self.levels.in_repeat_v.next = self.in_repeat_v.val();
         if self.sizes.val() && self.in_order.val() {
             self.count.d.next = self.in_level.val();
             if self.sound.val() {
@@ -195,7 +195,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             self.s1_fails.d.next = (self.sizes.val() && !(self.in_order.val() && self.sound.val()))
                 || (self.loads.val() && !self.known.val())
                 || (self.fetches.val() && self.count.q.val() == 0);
-            self.s1_void.d.next = self.count.q.val() == 0;
+            self.s1_blank.d.next = self.count.q.val() == 0;
             self.s1_u.d.next = self.in_u.val() >> self.level.val();
             self.s1_v.d.next = self.in_v.val() >> self.level.val();
             self.s1_i.d.next = self.in_i.val();
@@ -209,14 +209,14 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.axis_u.load.next = self.s1_load.q.val();
         self.axis_u.load_at.next = self.s1_i.q.val();
         self.axis_u.nearest.next = self.s1_nearest.q.val();
-        self.axis_u.side.next = self.table.width.val();
-        self.axis_u.repeat.next = self.table.repeat_u.val();
+        self.axis_u.side.next = self.levels.width.val();
+        self.axis_u.repeats.next = self.levels.repeat_u.val();
         self.axis_v.at.next = self.s1_v.q.val();
         self.axis_v.load.next = self.s1_load.q.val();
         self.axis_v.load_at.next = self.s1_j.q.val();
         self.axis_v.nearest.next = self.s1_nearest.q.val();
-        self.axis_v.side.next = self.table.height.val();
-        self.axis_v.repeat.next = self.table.repeat_v.val();
+        self.axis_v.side.next = self.levels.height.val();
+        self.axis_v.repeats.next = self.levels.repeat_v.val();
         self.outside.next =
             (self.s2_sends.q.val() || self.s2_load.q.val()) && (self.axis_u.outside.val() || self.axis_v.outside.val());
         self.weights_u.next = bit_cast_to::<Lanes<2, 14>>(self.axis_u.weight.val());
@@ -233,7 +233,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             | (bit_cast_to::<U<4>>(self.axis_v.first_odd.val()) << 1)
             | (bit_cast_to::<U<4>>(self.axis_u.same.val()) << 2)
             | (bit_cast_to::<U<4>>(self.axis_v.same.val()) << 3);
-        self.banks.void.next = self.s2_void.q.val();
+        self.banks.blank.next = self.s2_blank.q.val();
         self.banks.write.next = self.s2_load.q.val() && !self.outside.val();
         self.banks.write_data.next = self.s2_value.q.val();
 
@@ -246,11 +246,11 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.bilinear.b.next = self.s6_weights.q.val().get_bit(1);
 
         if self.go.val() {
-            self.s2_base.d.next = self.table.base.val();
-            self.s2_pitch.d.next = self.table.pitch.val();
+            self.s2_base.d.next = self.levels.base.val();
+            self.s2_pitch.d.next = self.levels.pitch.val();
             self.s2_load.d.next = self.s1_load.q.val();
             self.s2_value.d.next = self.s1_value.q.val();
-            self.s2_void.d.next = self.s1_void.q.val();
+            self.s2_blank.d.next = self.s1_blank.q.val();
             self.s3_load.d.next = self.s2_load.q.val();
             self.s4_load.d.next = self.s3_load.q.val();
             self.s3_weights.d.next = self.s2_weights.val();
@@ -295,7 +295,7 @@ ports! {
         inputs: in_valid, in_kind, in_level, in_u, in_v, in_bilinear, in_i, in_j, in_value, in_width, in_height, in_base,
             in_pitch, in_repeat_u, in_repeat_v, out_ready;
         outputs: in_ready, out_valid, out_value, error;
-        blocks: table, axis_u, axis_v, banks, bilinear;
-        state: count, table, axis_u, axis_v, banks, bilinear, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_void, s2_base, s2_pitch, s2_load, s2_value, s2_void, s3_weights, s4_weights, s5_weights, s6_weights, s1_sends, s2_sends, s3_sends, s4_sends, s5_sends, s6_sends, s7_sends, s8_sends, s9_sends, s10_sends, s11_sends, s12_sends, s1_fails, s2_fails, s3_fails, s4_fails, s5_fails, s6_fails, s7_fails, s8_fails, s9_fails, s10_fails, s11_fails, s3_load, s4_load, failed
+        blocks: levels, axis_u, axis_v, banks, bilinear;
+        state: count, levels, axis_u, axis_v, banks, bilinear, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_blank, s2_base, s2_pitch, s2_load, s2_value, s2_blank, s3_weights, s4_weights, s5_weights, s6_weights, s1_sends, s2_sends, s3_sends, s4_sends, s5_sends, s6_sends, s7_sends, s8_sends, s9_sends, s10_sends, s11_sends, s12_sends, s1_fails, s2_fails, s3_fails, s4_fails, s5_fails, s6_fails, s7_fails, s8_fails, s9_fails, s10_fails, s11_fails, s3_load, s4_load, failed
     }
 }

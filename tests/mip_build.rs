@@ -16,7 +16,7 @@ mod common;
 fn mip_build_matches_golden_under_idle_and_stall() {
     let beats = 20_000;
     for counts in common::matches_golden_everywhere(&MipBuildBinding, beats) {
-        assert!(counts.checked > beats / 4, "{counts:?}");
+        assert!(counts.checked > beats / 8, "{counts:?}");
     }
 }
 
@@ -88,7 +88,7 @@ fn mip_build_builds_every_small_map() {
     for pattern in [Pattern::NONE, Pattern { idle: 30, stall: 50, seed: 1 }] {
         let (counts, error, _) = run(&small::SET, all.clone(), pattern);
         assert_eq!((counts.checked, error), (nodes, false));
-        assert!(nodes > 5_000, "{nodes}");
+        assert!(nodes > 3_000, "{nodes}");
     }
 }
 

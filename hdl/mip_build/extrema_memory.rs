@@ -91,7 +91,7 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
-        module_name("extrema_memory")
+        module_name(format!("extrema_memory_{A}"))
     }
 }
 

@@ -29,7 +29,7 @@ pub struct MipFold<const M: usize, const A: usize> {
     pub odd_row: Input<Bit>,
     pub first_row: Input<Bit>,
     pub last_row: Input<Bit>,
-    pub cell: Input<Bit>,
+    pub cells: Input<Bit>,
     pub repeat_u: Input<Bit>,
     pub repeat_v: Input<Bit>,
     /// Nodes in a row above.
@@ -116,7 +116,7 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
 
         self.joined_max.next = self.max.val();
         self.joined_min.next = self.min.val();
-        if !self.first_column.val() && !(self.cell.val() && !self.odd_column.val()) {
+        if !self.first_column.val() && !(self.cells.val() && !self.odd_column.val()) {
             if self.open_max.q.val() > self.max.val() {
                 self.joined_max.next = self.open_max.q.val();
             }
@@ -140,7 +140,7 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
         if self.take.val() {
             self.open_max.d.next = self.joined_max.val();
             self.open_min.d.next = self.joined_min.val();
-            if self.odd_column.val() && !self.cell.val() {
+            if self.odd_column.val() && !self.cells.val() {
                 self.open_max.d.next = self.max.val();
                 self.open_min.d.next = self.min.val();
             }
@@ -158,15 +158,15 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
                 }
                 self.tail_turns.d.next = self.repeat_u.val();
                 self.near_row.d.next = self.row.q.val();
-                self.near_fresh.d.next = self.first_row.val() || (self.cell.val() && !self.odd_row.val());
+                self.near_fresh.d.next = self.first_row.val() || (self.cells.val() && !self.odd_row.val());
                 self.far_row.d.next = self.row_behind.val();
                 self.far_fresh.d.next = true;
                 if self.last_row.val() && self.repeat_v.val() {
                     self.far_row.d.next = 0.into();
                     self.far_fresh.d.next = false;
                 }
-                self.has_far.d.next = self.odd_row.val() && !self.cell.val();
-                self.has_tail.d.next = self.last_column.val() && self.odd_column.val() && !self.cell.val();
+                self.has_far.d.next = self.odd_row.val() && !self.cells.val();
+                self.has_tail.d.next = self.last_column.val() && self.odd_column.val() && !self.cells.val();
             }
             if self.last_column.val() && self.odd_row.val() {
                 self.row.d.next = self.row_behind.val();

@@ -4,7 +4,7 @@
 //! first = floor(x), second = first + 1, both clamped to the last sample, or one period taken off
 //!
 //! | port      | format   |   Latency 1, interval 1; holds while `go` is low
-//! | at        | UQ13.16  | the coordinate in samples of its level; `side` samples, a period where `repeat`
+//! | at        | UQ13.16  | the coordinate in samples of its level; `side` samples, a period where it `repeats`
 //! | load, load_at | Bit, unsigned M | a sample to be loaded instead; both neighbours are that sample
 //! | even, odd | unsigned M | half the index of the even and of the odd neighbour
 //! | first_odd, same | Bit | the first neighbour is the odd one; the second neighbour is the first
@@ -24,7 +24,7 @@ pub struct MipAxis<const M: usize> {
     pub load_at: Input<U<M>>,
     pub nearest: Input<Bit>,
     pub side: Input<U<M>>,
-    pub repeat: Input<Bit>,
+    pub repeats: Input<Bit>,
     pub even: Output<U<M>>,
     pub odd: Output<U<M>>,
     pub first_odd: Output<Bit>,
@@ -67,11 +67,11 @@ impl<const M: usize> Logic for MipAxis<M> {
         self.last.next = self.period.val() - 1;
         self.turned.next = self.index.val() - self.period.val();
         self.beyond.next = self.index.val() >= self.period.val()
-            && (self.load.val() || (self.repeat.val() && self.turned.val() >= self.period.val()));
+            && (self.load.val() || (self.repeats.val() && self.turned.val() >= self.period.val()));
         self.first.next = self.index.val();
         if self.index.val() >= self.period.val() {
             self.first.next = self.last.val();
-            if self.repeat.val() && !self.beyond.val() {
+            if self.repeats.val() && !self.beyond.val() {
                 self.first.next = self.turned.val();
             }
         }
@@ -80,7 +80,7 @@ impl<const M: usize> Logic for MipAxis<M> {
             self.second.next = self.first.val();
         } else if self.first.val() == self.last.val() {
             self.second.next = self.last.val();
-            if self.repeat.val() {
+            if self.repeats.val() {
                 self.second.next = 0.into();
             }
         }

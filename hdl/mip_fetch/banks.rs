@@ -7,7 +7,7 @@
 //! | s1_product   | rows times pitch, columns plus base        |   Golden: models::mip_fetch   Error 0
 //! | s2_word      | words of the four banks, compared with the depth |
 //! | s3_read      | the memories, read or written              |
-//! | s4_texel     | banks to texels; what lies beyond the memory, and every texel of a `void` fetch, is zero |
+//! | s4_texel     | banks to texels; what lies beyond the memory, and every texel of a `blank` fetch, is zero |
 //!
 //! `beyond` comes one cycle after s2_word. A load gives all banks the same word, and its parity picks the bank.
 
@@ -27,7 +27,7 @@ pub struct MipBanks<const M: usize, const A: usize> {
     pub odd_row: Input<U<M>>,
     /// Four flags, from the lowest bit: the first column is odd, the first row is; both columns are one, both rows are.
     pub flags: Input<U<4>>,
-    pub void: Input<Bit>,
+    pub blank: Input<Bit>,
     pub write: Input<Bit>,
     pub write_data: Input<U<16>>,
     pub beyond: Output<Bit>,
@@ -40,7 +40,7 @@ pub struct MipBanks<const M: usize, const A: usize> {
     s1_even_column: DataRegister<U<28>>,
     s1_odd_column: DataRegister<U<28>>,
     s1_flags: DataRegister<U<4>>,
-    s1_void: DataRegister<Bit>,
+    s1_blank: DataRegister<Bit>,
     s1_write: Register<Bit>,
     s1_data: DataRegister<U<16>>,
     s2_word_0: DataRegister<U<28>>,
@@ -48,7 +48,7 @@ pub struct MipBanks<const M: usize, const A: usize> {
     s2_word_2: DataRegister<U<28>>,
     s2_word_3: DataRegister<U<28>>,
     s2_flags: DataRegister<U<4>>,
-    s2_void: DataRegister<Bit>,
+    s2_blank: DataRegister<Bit>,
     s2_write: Register<Bit>,
     s2_data: DataRegister<U<16>>,
     s3_bank_0: Ram<U<16>, A>,
@@ -89,8 +89,8 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, s1_even_rows, s1_odd_rows, s3_bank_0, s3_bank_1, s3_bank_2, s3_bank_3);
-        dff_setup!(self, clock, s1_even_column, s1_odd_column, s1_flags, s1_void, s1_write, s1_data);
-        dff_setup!(self, clock, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_void, s2_write, s2_data);
+        dff_setup!(self, clock, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data);
+        dff_setup!(self, clock, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data);
         dff_setup!(self, clock, s3_zero, s3_flags, s4_t00, s4_t10, s4_t01, s4_t11);
 
         // s1_product: 13 x 13 bits at most; the sums fit 28 bits with a base of up to 27.
@@ -106,7 +106,7 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
             self.s1_odd_column.d.next =
                 bit_cast_to::<U<28>>(self.base.val()) + bit_cast_to::<U<28>>(self.odd_column.val());
             self.s1_flags.d.next = self.flags.val();
-            self.s1_void.d.next = self.void.val();
+            self.s1_blank.d.next = self.blank.val();
             self.s1_write.d.next = self.write.val();
             self.s1_data.d.next = self.write_data.val();
             // s2_word
@@ -115,7 +115,7 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
             self.s2_word_2.d.next = bit_cast_to::<U<28>>(self.s1_odd_rows.p.val()) + self.s1_even_column.q.val();
             self.s2_word_3.d.next = bit_cast_to::<U<28>>(self.s1_odd_rows.p.val()) + self.s1_odd_column.q.val();
             self.s2_flags.d.next = self.s1_flags.q.val();
-            self.s2_void.d.next = self.s1_void.q.val();
+            self.s2_blank.d.next = self.s1_blank.q.val();
             self.s2_write.d.next = self.s1_write.q.val();
             self.s2_data.d.next = self.s1_data.q.val();
         }
@@ -197,7 +197,7 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
         if self.go.val() {
             self.s3_flags.d.next = self.s2_flags.q.val();
             self.s3_zero.d.next = 0.into();
-            if self.s2_void.q.val() {
+            if self.s2_blank.q.val() {
                 self.s3_zero.d.next = 15.into();
             } else {
                 self.s3_zero.d.next = bit_cast_to::<U<4>>(self.beyond_0.val())
@@ -232,4 +232,4 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
     }
 }
 
-latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_void, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_void, s2_write, s2_data, s3_bank_0, s3_bank_1, s3_bank_2, s3_bank_3, s3_zero, s3_flags, s4_t00, s4_t10, s4_t01, s4_t11 }
+latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data, s3_bank_0, s3_bank_1, s3_bank_2, s3_bank_3, s3_zero, s3_flags, s4_t00, s4_t10, s4_t01, s4_t11 }

@@ -34,7 +34,7 @@ pub struct LevelTable<const M: usize, const A: usize> {
     bases: Ram<U<A>, 4>,
     pitches: Ram<U<M>, 4>,
     repeats: Ram<U<2>, 4>,
-    repeat: Wire<U<2>>,
+    both: Wire<U<2>>,
 }
 
 impl<const M: usize, const A: usize> Logic for LevelTable<M, A> {
@@ -71,9 +71,9 @@ impl<const M: usize, const A: usize> Logic for LevelTable<M, A> {
         self.height.next = self.heights.read_data.val();
         self.base.next = self.bases.read_data.val();
         self.pitch.next = self.pitches.read_data.val();
-        self.repeat.next = self.repeats.read_data.val();
-        self.repeat_u.next = self.repeat.val().get_bit(0);
-        self.repeat_v.next = self.repeat.val().get_bit(1);
+        self.both.next = self.repeats.read_data.val();
+        self.repeat_u.next = self.both.val().get_bit(0);
+        self.repeat_v.next = self.both.val().get_bit(1);
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
