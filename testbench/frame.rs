@@ -112,6 +112,8 @@ pub struct Report {
     pub pipeline: pipeline::Counts,
     /// Triangles with a vertex at or behind the eye: not drawn.
     pub invalid_triangles: u64,
+    /// Triangles of which two corners fell on one point: drawn without a pixel, and not in the mesh.
+    pub collapsed_triangles: u64,
     /// Triangles that were drawn.
     pub drawn_triangles: u64,
     /// Pixels that they covered, hidden ones included.
@@ -266,7 +268,12 @@ pub fn render(
                         vertices
                     })
                 });
-                let _ = writeln!(out.obj, "f {} {} {}", numbers[0], numbers[1], numbers[2]);
+                // Two equal corners: both ways along one edge, which closes nothing and opens nothing (poles make them).
+                let [a, b, c] = numbers;
+                match a == b || b == c || c == a {
+                    true => out.report.collapsed_triangles += 1,
+                    false => drop(writeln!(out.obj, "f {a} {b} {c}")),
+                }
             }
         }
     }

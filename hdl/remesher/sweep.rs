@@ -134,6 +134,7 @@ pub struct Sweep<const T: usize> {
     on_edge: DataRegister<Bit>,
     column_edge: DataRegister<Bit>,
     column_index: DataRegister<S<T>>,
+    right_error: DataRegister<S<T>>,
     // The micro-operation sent.
     out_valid: Register<Bit>,
     out_code: DataRegister<U<3>>,
@@ -177,6 +178,8 @@ pub struct Sweep<const T: usize> {
     complete: Wire<Bit>,
     complete_next: Wire<Bit>,
     column_length: Wire<S<T>>,
+    right_slope: Wire<S<T>>,
+    right_sum: Wire<S<T>>,
     at_column_end: Wire<Bit>,
     right_free: Wire<Bit>,
     right_free_next: Wire<Bit>,
@@ -217,6 +220,7 @@ impl<const T: usize> Logic for Sweep<T> {
             on_edge,
             column_edge,
             column_index,
+            right_error,
             out_valid,
             out_code,
             out_left,
@@ -342,6 +346,12 @@ impl<const T: usize> Logic for Sweep<T> {
         if self.second.q.val() {
             self.column_length.next = self.n_ac.q.val();
         }
+        // Its row, from B or from A, which never falls either.
+        self.right_slope.next = self.d_c.q.val() - self.d_b.q.val();
+        if self.second.q.val() {
+            self.right_slope.next = self.d_c.q.val();
+        }
+        self.right_sum.next = self.right_error.q.val() + (self.right_slope.val() << 1);
         self.at_column_end.next = self.column_index.q.val() >= self.column_length.val();
         if self.column_edge.q.val() {
             self.right_free.next = !self.at_column_end.val();
@@ -500,6 +510,7 @@ impl<const T: usize> Logic for Sweep<T> {
                     self.error_primary.d.next = self.error_primary_next.val();
                     self.row_base.d.next = self.row_primary_next.val();
                     self.column_index.d.next = 1.into();
+                    self.right_error.d.next = self.column_length.val();
                     // The last column is an edge of the base triangle where no other half adjoins it.
                     self.column_edge.d.next = self.last_column.val()
                         && !self.pointed.q.val()
@@ -526,6 +537,11 @@ impl<const T: usize> Logic for Sweep<T> {
                         self.row_right.d.next = self.row_right.q.val() + 1;
                     } else if self.right.val() == 2 {
                         self.column_index.d.next = self.column_index.q.val() + 1;
+                        self.right_error.d.next = self.right_sum.val();
+                        if self.right_sum.val() >= (self.column_length.val() << 1) {
+                            self.row_right.d.next = self.row_right.q.val() + 1;
+                            self.right_error.d.next = self.right_sum.val() - (self.column_length.val() << 1);
+                        }
                     }
                     if self.strip_ends.val() {
                         self.state.d.next = SweepState::Rung;
@@ -581,4 +597,4 @@ impl<const T: usize> Logic for Sweep<T> {
     }
 }
 
-watched! { [const T: usize] Sweep<T>: record_valid, record_n_ab, record_n_ac, record_n_bc, record_s_b, record_s_c, record_d_b, record_d_c, record_roof, record_point, record_swap, op_ready;; state, n_ab, n_ac, n_bc, width_a, width_b, d_b, d_c, roof, point, swap, second, pointed, on_bc, corner_start, column, width, passed, row_primary, error_primary, row_base, edge_index, edge_row, edge_row_error, edge_column, edge_column_error, row_left, row_right, on_edge, column_edge, column_index, out_valid, out_code, out_left, out_right, out_second, out_on_bc, out_at_end, out_base, out_column_edge, out_edge, out_edge_next, out_advance, out_turn, out_keep, out_swap, out_last }
+watched! { [const T: usize] Sweep<T>: record_valid, record_n_ab, record_n_ac, record_n_bc, record_s_b, record_s_c, record_d_b, record_d_c, record_roof, record_point, record_swap, op_ready;; state, n_ab, n_ac, n_bc, width_a, width_b, d_b, d_c, roof, point, swap, second, pointed, on_bc, corner_start, column, width, passed, row_primary, error_primary, row_base, edge_index, edge_row, edge_row_error, edge_column, edge_column_error, row_left, row_right, on_edge, column_edge, column_index, right_error, out_valid, out_code, out_left, out_right, out_second, out_on_bc, out_at_end, out_base, out_column_edge, out_edge, out_edge_next, out_advance, out_turn, out_keep, out_swap, out_last }

@@ -99,6 +99,9 @@ pub(super) fn strips<const N: usize, O: Observer>(
                 if inside(upper, right_row, &column_edge) {
                     if let Some(walker) = &mut column_edge {
                         port.right_column(walker);
+                        // Were the row left where it is, the whole edge would fan about one left vertex: a tiling of
+                        // slivers that gape as soon as they are displaced.
+                        right_row = walker.row();
                         walker.advance();
                     } else {
                         add(&mut right_cursor, &side_difference);

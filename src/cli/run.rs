@@ -46,7 +46,7 @@ enum Engine {
 }
 
 /// Cycles of the waveform.
-const WAVEFORM: u64 = 2_000;
+const WAVEFORM: u64 = 400;
 
 /// Reads, draws and writes.
 pub fn run(arguments: &Arguments) -> Result {
@@ -122,7 +122,13 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
         let _ = writeln!(text, "{name:26} {value}");
     };
     row("base triangles", format!("{} ({culled} culled, {dropped} dropped)", report.base_triangles));
-    row("triangles", format!("{} ({} not drawn)", counts.triangles, report.invalid_triangles));
+    row(
+        "triangles",
+        format!(
+            "{} ({} behind the eye, {} collapsed)",
+            counts.triangles, report.invalid_triangles, report.collapsed_triangles
+        ),
+    );
     row(
         "vertices displaced",
         format!("{} ({:.3} a triangle)", counts.vertices, part(counts.vertices, counts.triangles)),

@@ -7,8 +7,9 @@ use check::{FORMAT, Run};
 use proptest::prelude::*;
 use rayon::prelude::*;
 use relief_models::fixed::divide_round_half_up;
-use relief_models::remesher::{BaseTriangle, Case, Format, FormatError, Place, Setup, exact, observe};
+use relief_models::remesher::{BaseTriangle, Case, Format, FormatError, Place, Setup, exact, golden, observe};
 use relief_models::step::Vertex;
+use relief_models::strip_unit;
 use relief_models::strip_unit::StripUnit;
 use rustc_hash::FxHashMap;
 
@@ -115,6 +116,42 @@ fn remesher_tiles_the_counterexamples_of_the_amendments() {
 
 /// Millions of triangles each: the open edges are kept only while they are open. Positive triangles whose boundary is
 /// the base triangle's cover it once.
+/// Where the base edge at C fills the last column, it is climbed in turn with the column before it. The printed rule lets
+/// the right side climb it at once: the same tiling, but all of it fans about one left vertex, and such slivers gape as
+/// soon as they are displaced.
+#[test]
+fn remesher_column_edge_makes_no_slivers() {
+    let format = Format { components: 3, vertex_bits: 32, guard_bits: 13, coordinate_bits: 14, column_depth: 4096 };
+    let mut random = Random(5);
+    let mut bases = vec![[[0, 0, 0], [40, 0, 0], [40, 20, 0]], [[0, 0, 0], [40, 0, 0], [0, 20, 7]]];
+    for _ in 0..200 {
+        let [mut a, mut b, mut c] = random.corners(60, 0);
+        // The longest edge is AB, along x, and C stands over one of its ends.
+        (a[0], b[0]) = (-70, 70);
+        c[0] = if random.upto(1) == 0 { a[0] } else { b[0] };
+        bases.push([a, b, c]);
+    }
+    let mut longest = 0;
+    for corners in bases {
+        for turn in 0..3 {
+            let corners = [corners[turn], corners[(turn + 1) % 3], corners[(turn + 2) % 3]];
+            let data =
+                corners.map(|corner| std::array::from_fn(|k| if k < 3 { i64::from(corner[k]) << 16 } else { 0 }));
+            let mut steps = Vec::new();
+            golden(&format, &BaseTriangle { corners, data }, &mut |step| steps.push(*step));
+            for triangle in strip_unit::golden(format.column_depth, &steps) {
+                for axis in 0..3 {
+                    let values = triangle.map(|vertex| vertex[axis]);
+                    let extent = values.iter().max().unwrap_or(&0) - values.iter().min().unwrap_or(&0);
+                    longest = longest.max(extent);
+                    assert!(extent <= 5 << 15, "{corners:?}: {triangle:?}");
+                }
+            }
+        }
+    }
+    assert!(longest >= 1 << 16, "{longest}");
+}
+
 #[test]
 fn remesher_tiles_large_triangles() {
     let large = [
