@@ -301,3 +301,101 @@ pub fn exact(
     let all = rows.iter().flat_map(|&y| columns.iter().map(move |&x| samples[y * width + x]));
     all.reduce(|a, b| extremum.of(a, b)).unwrap_or(0)
 }
+
+/// A map's size and what is to be built of it, as the builder in hardware takes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BuildSize {
+    /// Texels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// The borders of the axes u and v.
+    pub wrap: [Wrap; 2],
+    /// Where the samples stand.
+    pub centring: Centring,
+    /// Levels, the map included.
+    pub levels: usize,
+}
+
+/// A node that the builder sends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Node {
+    /// Level, 1 and up.
+    pub level: usize,
+    /// Column.
+    pub i: usize,
+    /// Row.
+    pub j: usize,
+    /// Maximum.
+    pub max: u16,
+    /// Minimum.
+    pub min: u16,
+    /// The last node of the last level.
+    pub last: bool,
+}
+
+/// Golden model of the builder: collects a map and sends the nodes of its levels.
+#[derive(Clone, Debug)]
+pub struct MipBuild {
+    nodes: usize,
+    map: Option<(BuildSize, Vec<u16>)>,
+    error: bool,
+}
+
+impl MipBuild {
+    /// A builder whose memory holds `nodes` nodes of level 1.
+    pub const fn new(nodes: usize) -> Self {
+        Self { nodes, map: None, error: false }
+    }
+
+    /// Sticky: a size that cannot be used, a size before the map was complete, a texel without a size.
+    pub const fn error(&self) -> bool {
+        self.error
+    }
+
+    /// Takes a size.
+    pub fn size(&mut self, size: BuildSize) {
+        self.error |= self.map.is_some();
+        let BuildSize { width, height, wrap, centring, levels } = size;
+        let fits =
+            levels < 2 || side_above(width, centring, wrap[0]) * side_above(height, centring, wrap[1]) <= self.nodes;
+        // The periods of every level, of a map of zeros along each axis.
+        let even = (0..levels).all(|level| {
+            [(width, wrap[0]), (height, wrap[1])]
+                .iter()
+                .all(|(side, wrap)| *wrap == Wrap::Clamp || side >> level & 1 == 0)
+        });
+        let sound = width > 0 && height > 0 && (1..=MAX_LEVELS).contains(&levels) && even && fits;
+        self.error |= !sound;
+        self.map = sound.then(|| (size, Vec::new()));
+    }
+
+    /// Takes a texel; the last one of a map gives the nodes of all levels.
+    pub fn texel(&mut self, value: u16) -> Vec<Node> {
+        let Some((size, mut texels)) = self.map.take() else {
+            self.error = true;
+            return Vec::new();
+        };
+        texels.push(value);
+        if texels.len() < size.width * size.height {
+            self.map = Some((size, texels));
+            return Vec::new();
+        }
+        let BuildSize { width, height, wrap, centring, levels } = size;
+        let build = |extremum| golden(width, height, &texels, centring, wrap, extremum, levels);
+        let (Ok(most), Ok(least)) = (build(Extremum::Max), build(Extremum::Min)) else {
+            // A size that was taken has a pyramid.
+            unreachable!("{size:?}");
+        };
+        let mut nodes = Vec::new();
+        for (level, (most, least)) in most.levels.iter().zip(&least.levels).enumerate().skip(1) {
+            for (i, j) in (0..most.height).flat_map(|j| (0..most.width).map(move |i| (i, j))) {
+                nodes.push(Node { level, i, j, max: most.at(i, j), min: least.at(i, j), last: false });
+            }
+        }
+        if let Some(node) = nodes.last_mut() {
+            node.last = true;
+        }
+        nodes
+    }
+}
