@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Memories that synthesis infers as block RAM: one synchronous read port, and for the RAM one write port.
 //!
-//! RAM: read_data(t+1) = memory[read_address(t)] before the write of cycle t (read first).
+//! RAM: read_data(t+1) = memory[read_address(t)] before the write of cycle t (read first); it holds while `enable` is low.
 //! ROM: read_data(t+1) = contents[read_address(t)]; the contents are loaded with `$readmemh`.
 //!
 //! An address beyond the depth reads zero and writes nothing in simulation; hardware must not rely on it.
@@ -15,6 +15,8 @@ use rust_hdl_core::prelude::*;
 pub struct Ram<T: Synth, const A: usize> {
     /// Clock; nothing is reset.
     pub clock: Input<ClockReset>,
+    /// Read enable: `read_data` holds when low; high when the kernel never drives it.
+    pub enable: Input<Bit>,
     /// Writes `write_data` to `write_address` when high.
     pub write_enable: Input<Bit>,
     /// Address of the write port.
@@ -38,6 +40,7 @@ impl<T: Synth, const A: usize> Ram<T, A> {
         assert!(depth >= 1 && depth <= 1 << A, "a RAM of {depth} words needs an address of more than {A} bits");
         Self {
             clock: Input::default(),
+            enable: Input::new(true),
             write_enable: Input::default(),
             write_address: Input::default(),
             write_data: Input::default(),
@@ -50,12 +53,22 @@ impl<T: Synth, const A: usize> Ram<T, A> {
     }
 }
 
+impl<T: Synth, const A: usize> Default for Ram<T, A> {
+    /// A RAM of 2^A words.
+    fn default() -> Self {
+        Self::new(1 << A)
+    }
+}
+
 impl<T: Synth, const A: usize> Latch for Ram<T, A> {
     #[inline(always)]
     fn latch(&mut self, _reset: bool) -> bool {
-        let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
-        let mut changed = word != self.read_data.next;
-        self.read_data.next = word;
+        let mut changed = false;
+        if self.enable.next {
+            let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
+            changed = word != self.read_data.next;
+            self.read_data.next = word;
+        }
         if self.write_enable.next
             && let Some(word) = self.words.get_mut(self.write_address.next.index())
         {
@@ -82,7 +95,7 @@ impl<T: Synth, const A: usize> Logic for Ram<T, A> {
         Verilog::Custom(format!(
             "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\n{unused}always @(posedge clock) begin\n    \
              if (@write_enable) @memory[@write_address{bits}] <= @write_data;\n    \
-             @read_data <= @memory[@read_address{bits}];\nend\n"
+             if (@enable) @read_data <= @memory[@read_address{bits}];\nend\n"
         ))
     }
 }
@@ -102,6 +115,7 @@ impl<T: Synth, const A: usize> Block for Ram<T, A> {
     fn accept(&self, name: &str, probe: &mut dyn Probe) {
         probe.visit_start_scope(name, self);
         self.clock.accept("clock", probe);
+        self.enable.accept("enable", probe);
         self.write_enable.accept("write_enable", probe);
         self.write_address.accept("write_address", probe);
         self.write_data.accept("write_data", probe);

@@ -3,7 +3,7 @@
 //!
 //! p = a * b   (exact when P >= A + B, modulo 2^P otherwise)
 //!
-//! | port  | format      |   Latency 1, interval 1, error 0
+//! | port  | format      |   Latency 1, interval 1, error 0; the product holds while `enable` is low
 //! | a     | signed A    |   Example: A = B = 4, P = 8:  -8 * -8 -> 64
 //! | b     | signed B    |
 //! | p     | signed wide P |
@@ -13,10 +13,12 @@ use crate::signal::{ClockReset, Input, Latch, Output, S, Scalar, WideS};
 use rust_hdl_core::prelude::*;
 
 /// Multiplier of `A` by `B` bits with a registered product of `P` bits.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct Multiplier<const A: usize, const B: usize, const P: usize> {
     /// Clock; the product register is not reset.
     pub clock: Input<ClockReset>,
+    /// The product holds when low; high when the kernel never drives it.
+    pub enable: Input<Bit>,
     /// First factor.
     pub a: Input<S<A>>,
     /// Second factor.
@@ -27,6 +29,20 @@ pub struct Multiplier<const A: usize, const B: usize, const P: usize> {
     changed: bool,
 }
 
+impl<const A: usize, const B: usize, const P: usize> Default for Multiplier<A, B, P> {
+    fn default() -> Self {
+        Self {
+            clock: Input::default(),
+            enable: Input::new(true),
+            a: Input::default(),
+            b: Input::default(),
+            p: Output::default(),
+            clock_was_high: false,
+            changed: false,
+        }
+    }
+}
+
 impl<const A: usize, const B: usize, const P: usize> Multiplier<A, B, P> {
     /// Cycles from factors to product.
     pub const LATENCY: usize = 1;
@@ -35,6 +51,9 @@ impl<const A: usize, const B: usize, const P: usize> Multiplier<A, B, P> {
 impl<const A: usize, const B: usize, const P: usize> Latch for Multiplier<A, B, P> {
     #[inline(always)]
     fn latch(&mut self, _reset: bool) -> bool {
+        if !self.enable.next {
+            return false;
+        }
         let product = WideS::new(self.a.next.wide().wrapping_mul(self.b.next.wide()));
         let changed = product != self.p.next;
         self.p.next = product;
@@ -56,7 +75,7 @@ impl<const A: usize, const B: usize, const P: usize> Logic for Multiplier<A, B, 
         // The factors are signed and extended to the product's width by the assignment; widening them by hand hides
         // the small multiplication from synthesis.
         Verilog::Custom(format!(
-            "{INLINE}/* verilator lint_off WIDTH */\nalways @(posedge clock) @p <= @a * @b;\n\
+            "{INLINE}/* verilator lint_off WIDTH */\nalways @(posedge clock) if (@enable) @p <= @a * @b;\n\
              /* verilator lint_on WIDTH */\n"
         ))
     }
@@ -77,6 +96,7 @@ impl<const A: usize, const B: usize, const P: usize> Block for Multiplier<A, B, 
     fn accept(&self, name: &str, probe: &mut dyn Probe) {
         probe.visit_start_scope(name, self);
         self.clock.accept("clock", probe);
+        self.enable.accept("enable", probe);
         self.a.accept("a", probe);
         self.b.accept("b", probe);
         self.p.accept("p", probe);
