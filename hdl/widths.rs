@@ -19,9 +19,23 @@ pub struct WidthSet {
     pub coordinate_bits: usize,
     /// Vertices in the column memory.
     pub column_depth: usize,
+    /// Sides of maps go up to 2^side_bits texels; a side is a number of one bit more, M.
+    pub side_bits: usize,
+    /// The memory of a map's levels has 2^texel_bits words in four banks, that of a summed-area table as many in one.
+    pub texel_bits: usize,
+    /// Bits of a sum in a summed-area table, B.
+    pub sum_bits: usize,
 }
 
 impl WidthSet {
+    /// Bits of a side, M.
+    pub const fn side_width(&self) -> usize {
+        self.side_bits + 1
+    }
+    /// Words in each of the four banks, and nodes in the memory of the pyramid builder.
+    pub const fn bank_words(&self) -> usize {
+        1 << (self.texel_bits - 2)
+    }
     /// Bits of an accumulator, W = V + g + 1.
     pub const fn accumulator_bits(&self) -> usize {
         self.vertex_bits + self.guard_bits + 1
@@ -33,7 +47,7 @@ impl WidthSet {
 }
 
 macro_rules! width_sets {
-    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal;)*) => {
+    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal, sides $m:literal, texels $t:literal, B $b:literal;)*) => {
         $(
             #[doc = $summary]
             pub mod $name {
@@ -46,11 +60,18 @@ macro_rules! width_sets {
                     guard_bits: $g,
                     coordinate_bits: $n,
                     column_depth: $depth,
+                    side_bits: $m,
+                    texel_bits: $t,
+                    sum_bits: $b,
                 };
                 /// Vertex adder of the accumulators.
                 pub type VertexAdder = crate::vertex_adder::VertexAdder<$l, { $v + $g + 1 }>;
                 /// Strip unit.
                 pub type StripUnit = crate::strip_unit::StripUnit<$l, $v, $k>;
+                /// Pyramid builder.
+                pub type MipBuild = crate::mip_build::MipBuild<{ $m + 1 }, { $t - 2 }, { $t - 3 }>;
+                /// Fetch from pyramids.
+                pub type MipFetch = crate::mip_fetch::MipFetch<{ $m + 1 }, { $t - 2 }>;
                 /// Remesher.
                 pub type Remesher = crate::remesher::Remesher<
                     $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,
@@ -80,9 +101,11 @@ macro_rules! width_sets {
 
 width_sets! { $;
     default "default" "Nine components of 32 bits: position, normal, texture coordinates, 1/w; viewports to 4,096":
-        L 9, V 32, g 13, N 14, depth 4096, K 13;
+        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40;
     position "position" "Three components: the remesher alone, on geometry":
-        L 3, V 32, g 13, N 14, depth 4096, K 13;
-    small "small" "Nine components of 24 bits for 640 x 480": L 9, V 24, g 10, N 11, depth 512, K 10;
-    deep "deep" "Thirteen components, depth ranges to 2^15 voxels": L 13, V 32, g 16, N 17, depth 4096, K 13;
+        L 3, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40;
+    small "small" "Nine components of 24 bits for 640 x 480":
+        L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, B 32;
+    deep "deep" "Thirteen components, depth ranges to 2^15 voxels":
+        L 13, V 32, g 16, N 17, depth 4096, K 13, sides 12, texels 20, B 40;
 }

@@ -63,6 +63,8 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::vertex_adder::VertexAdderBinding,
     &crate::strip_unit::StripUnitBinding,
     &crate::remesher::RemesherBinding,
+    &crate::mip_build::MipBuildBinding,
+    &crate::mip_fetch::MipFetchBinding,
 ];
 
 /// The block of a name.
@@ -106,6 +108,21 @@ impl Random {
             _ => (self.bits() as i64) >> shift,
         }
     }
+}
+
+/// A beat of unsigned fields, each of one word: refuses a line of the wrong length, and a number that does not fit its
+/// field. `fields` holds names and bits.
+pub(crate) fn unsigned_fields(numbers: &[i64], fields: &[(&str, usize)]) -> Result<Beat, String> {
+    if numbers.len() != fields.len() {
+        return Err(format!("the line has {} numbers, and {} make a beat", numbers.len(), fields.len()));
+    }
+    for (at, (&number, (name, bits))) in numbers.iter().zip(fields).enumerate() {
+        let most = (1i64 << bits) - 1;
+        if !(0..=most).contains(&number) {
+            return Err(format!("number {} ({name}) is {number}, which does not fit 0..={most}", at + 1));
+        }
+    }
+    Ok(numbers.iter().map(|&number| number as u64).collect())
 }
 
 /// Packs signed lanes of `bits` bits into words, lane 0 lowest.

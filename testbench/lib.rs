@@ -16,6 +16,8 @@ pub mod binding;
 pub mod check;
 pub mod cosim;
 pub mod device;
+pub mod mip_build;
+pub mod mip_fetch;
 pub mod probe;
 pub mod remesh;
 pub mod remesher;

@@ -42,6 +42,9 @@ struct Set {
     accumulator_bits: usize,
     coordinate_bits: usize,
     column_depth: usize,
+    side_bits: usize,
+    texel_bits: usize,
+    sum_bits: usize,
 }
 
 /// Lists.
@@ -61,12 +64,13 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     writeln!(text, "width sets (of every block; W is the bits of an accumulator)")?;
     for set in WIDTH_SETS {
-        let WidthSet { name, summary, components, vertex_bits, guard_bits, coordinate_bits, column_depth } = set;
+        let WidthSet { name, summary, components, vertex_bits, guard_bits, coordinate_bits, column_depth, .. } = set;
         let bits = set.accumulator_bits();
+        let (side, texels, sum) = (1 << set.side_bits, 1 << set.texel_bits, set.sum_bits);
         writeln!(
             text,
             "    {name:9} L {components:<2}  V {vertex_bits}  g {guard_bits}  W {bits}  N {coordinate_bits}  column \
-             {column_depth:<4}  {summary}"
+             {column_depth:<4}  maps to {side:<4}  in {texels:<7} texels  sums {sum}  {summary}"
         )?;
     }
     write_all(stdout(), &text)?;
@@ -83,6 +87,9 @@ fn json(block: &dyn Binding) -> Block {
         accumulator_bits: set.accumulator_bits(),
         coordinate_bits: set.coordinate_bits,
         column_depth: set.column_depth,
+        side_bits: set.side_bits,
+        texel_bits: set.texel_bits,
+        sum_bits: set.sum_bits,
     };
     Block {
         name: block.name(),

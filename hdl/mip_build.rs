@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Builds the maxima and the minima of every filter level of a map, a texel a cycle.
+//!
+//! ```text
+//! node:  level L+1 node (i, j) = max and min of the 3 x 3 neighbours of node (2i, 2j) of level L
+//! cell:  level L+1 cell (i, j) = max and min of the 2 x 2 cells (2i .. 2i+1, 2j .. 2j+1) of level L
+//! ```
+//!
+//! | port        | format      | meaning |   Latency 6 from the last texel of a map of odd sides   Interval 1 (see fold)
+//! | in_kind     | 1 bit       | 0 size, 1 texel, in raster order   Golden: models::mip_build::MipBuild   Error 0
+//! | in_width, in_height | unsigned M | of the map, at least one | size
+//! | in_repeat_u, in_repeat_v | Bit | the map repeats; the side must be even at every level | size
+//! | in_cell     | Bit         | cells, otherwise nodes | size
+//! | in_levels   | 4 bits      | levels, the map included: 1 ..= 15 | size
+//! | in_value    | UQ16.0      | the texel | texel
+//! | out_level   | 4 bits      | 1 and up, one after the other
+//! | out_i, out_j | unsigned M | column and row, in raster order
+//! | out_max, out_min | UQ16.0 |
+//! | out_last    | Bit         | the last node of the last level
+//! | error       | Bit         | sticky: a size that cannot be used (level 1 has more than 2^A nodes, for one; it is
+//! forgotten), a size before the map was complete (the old map is forgotten), a texel without a size (dropped)
+//!
+//! Odd levels stand in one memory, even ones in another: a complete level is sent, and as it is sent it is the map of
+//! the next one. A map of N texels takes about 4/3 N cycles. 2^B nodes hold every level 2 if B = A - 1.
+
+mod extrema_memory;
+mod fold;
+
+pub use extrema_memory::ExtremaMemory;
+pub use fold::MipFold;
+
+use crate::prelude::*;
+
+/// What the builder does.
+#[derive(Copy, Clone, PartialEq, Eq, Debug, LogicState)]
+#[allow(missing_docs)]
+pub enum MipBuildState {
+    /// Waits for a size.
+    Idle,
+    /// Multiplies the sides of level 1.
+    Measure,
+    /// Takes the size, or refuses it.
+    Check,
+    /// Takes texels, or nodes of the level before, and sends these.
+    Run,
+    /// Waits until the last node is written.
+    Flush,
+}
+
+/// Builder for sides below 2^M, levels of up to 2^A nodes.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
+    pub clock: Input<ClockReset>,
+    pub in_valid: Input<Bit>,
+    pub in_ready: Output<Bit>,
+    pub in_kind: Input<U<1>>,
+    pub in_width: Input<U<M>>,
+    pub in_height: Input<U<M>>,
+    pub in_repeat_u: Input<Bit>,
+    pub in_repeat_v: Input<Bit>,
+    pub in_cell: Input<Bit>,
+    pub in_levels: Input<U<4>>,
+    pub in_value: Input<U<16>>,
+    pub out_valid: Output<Bit>,
+    pub out_ready: Input<Bit>,
+    pub out_level: Output<U<4>>,
+    pub out_i: Output<U<M>>,
+    pub out_j: Output<U<M>>,
+    pub out_max: Output<U<16>>,
+    pub out_min: Output<U<16>>,
+    pub out_last: Output<Bit>,
+    pub error: Output<Bit>,
+    state: Register<MipBuildState>,
+    failed: Register<Bit>,
+    // The level that is read.
+    level: Register<U<4>>,
+    width: DataRegister<U<M>>,
+    height: DataRegister<U<M>>,
+    column: DataRegister<U<M>>,
+    row: DataRegister<U<M>>,
+    // The map.
+    levels: DataRegister<U<4>>,
+    repeat_u: DataRegister<Bit>,
+    repeat_v: DataRegister<Bit>,
+    cells: DataRegister<Bit>,
+    // The node that is read.
+    read_at: DataRegister<U<A>>,
+    read_valid: Register<Bit>,
+    // The node that is sent.
+    sent_valid: Register<Bit>,
+    sent_level: DataRegister<U<4>>,
+    sent_i: DataRegister<U<M>>,
+    sent_j: DataRegister<U<M>>,
+    sent_max: DataRegister<U<16>>,
+    sent_min: DataRegister<U<16>>,
+    sent_last: DataRegister<Bit>,
+    area: Multiplier<14, 14, 28>,
+    fold: MipFold<M, A>,
+    odd_levels: ExtremaMemory<A>,
+    even_levels: ExtremaMemory<B>,
+    running: Wire<Bit>,
+    on_map: Wire<Bit>,
+    texel: Wire<Bit>,
+    size: Wire<Bit>,
+    out_free: Wire<Bit>,
+    folds: Wire<Bit>,
+    offered: Wire<Bit>,
+    take: Wire<Bit>,
+    word: Wire<U<32>>,
+    texel_max: Wire<U<16>>,
+    texel_min: Wire<U<16>>,
+    last_column: Wire<Bit>,
+    last_row: Wire<Bit>,
+    width_above: Wire<U<M>>,
+    height_above: Wire<U<M>>,
+    width_kept: Wire<U<M>>,
+    height_kept: Wire<U<M>>,
+    nodes: Wire<U<28>>,
+    nodes_behind: Wire<U<28>>,
+    sound: Wire<Bit>,
+    reads: Wire<Bit>,
+    advance: Wire<Bit>,
+}
+
+impl<const M: usize, const A: usize, const B: usize> MipBuild<M, A, B> {
+    /// Cycles from the last texel of a map of odd sides to the first node.
+    pub const LATENCY: usize = 6;
+}
+
+impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, area, fold, odd_levels, even_levels);
+        dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
+        dff_setup!(self, clock, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
+        dff_setup!(self, clock, sent_last);
+        self.out_valid.next = self.sent_valid.q.val();
+        self.out_level.next = self.sent_level.q.val();
+        self.out_i.next = self.sent_i.q.val();
+        self.out_j.next = self.sent_j.q.val();
+        self.out_max.next = self.sent_max.q.val();
+        self.out_min.next = self.sent_min.q.val();
+        self.out_last.next = self.sent_last.q.val();
+        self.error.next = self.failed.q.val();
+
+        // Sides above: w / 2 + 1 nodes, w / 2 where they repeat, cells rounded up.
+        self.width_above.next = self.width.q.val() >> 1;
+        if self.cells.q.val() {
+            self.width_above.next = (self.width.q.val() >> 1) + bit_cast_to::<U<M>>(self.width.q.val().get_bit(0));
+        } else if !self.repeat_u.q.val() {
+            self.width_above.next = (self.width.q.val() >> 1) + 1;
+        }
+        self.height_above.next = self.height.q.val() >> 1;
+        if self.cells.q.val() {
+            self.height_above.next = (self.height.q.val() >> 1) + bit_cast_to::<U<M>>(self.height.q.val().get_bit(0));
+        } else if !self.repeat_v.q.val() {
+            self.height_above.next = (self.height.q.val() >> 1) + 1;
+        }
+        self.area.a.next = bit_cast_to::<S<14>>(self.width_above.val());
+        self.area.b.next = bit_cast_to::<S<14>>(self.height_above.val());
+        // Up to 2^A nodes; none at all only where a side is none, which is refused.
+        self.nodes.next = bit_cast_to::<U<28>>(self.area.p.val()) - 1;
+        self.nodes_behind.next = bit_cast_to::<U<28>>(bit_cast_to::<U<A>>(self.nodes.val()));
+        // A side that repeats has as many factors of two as there are levels.
+        self.width_kept.next = (self.width.q.val() >> self.levels.q.val()) << self.levels.q.val();
+        self.height_kept.next = (self.height.q.val() >> self.levels.q.val()) << self.levels.q.val();
+        self.sound.next = self.width.q.val() != 0
+            && self.height.q.val() != 0
+            && self.levels.q.val() != 0
+            && (!self.repeat_u.q.val() || self.width_kept.val() == self.width.q.val())
+            && (!self.repeat_v.q.val() || self.height_kept.val() == self.height.q.val())
+            && (self.levels.q.val() == 1 || self.nodes_behind.val() == self.nodes.val());
+
+        self.running.next = self.state.q.val() == MipBuildState::Run;
+        self.on_map.next = self.level.q.val() == 0;
+        self.texel.next = self.in_valid.val() && self.in_kind.val() == 1;
+        self.out_free.next = !self.sent_valid.q.val() || self.out_ready.val();
+        self.folds.next = self.level.q.val() + 1 != self.levels.q.val();
+        self.offered.next = self.running.val() && self.texel.val();
+        if !self.on_map.val() {
+            self.offered.next = self.running.val() && self.read_valid.q.val() && self.out_free.val();
+        }
+        self.word.next = self.even_levels.read_word.val();
+        if self.level.q.val().get_bit(0) {
+            self.word.next = self.odd_levels.read_word.val();
+        }
+        self.texel_max.next = self.word.val().get_bits::<16>(16);
+        self.texel_min.next = self.word.val().get_bits::<16>(0);
+        if self.on_map.val() {
+            self.texel_max.next = self.in_value.val();
+            self.texel_min.next = self.in_value.val();
+        }
+        self.last_column.next = self.column.q.val() + 1 == self.width.q.val();
+        self.last_row.next = self.row.q.val() + 1 == self.height.q.val();
+        self.fold.valid.next = self.offered.val() && self.folds.val();
+        self.fold.max.next = self.texel_max.val();
+        self.fold.min.next = self.texel_min.val();
+        self.fold.column.next = self.column.q.val();
+        self.fold.first_column.next = self.column.q.val() == 0;
+        self.fold.last_column.next = self.last_column.val();
+        self.fold.odd_row.next = self.row.q.val().get_bit(0);
+        self.fold.first_row.next = self.row.q.val() == 0;
+        self.fold.last_row.next = self.last_row.val();
+        self.fold.cells.next = self.cells.q.val();
+        self.fold.repeat_u.next = self.repeat_u.q.val();
+        self.fold.repeat_v.next = self.repeat_v.q.val();
+        self.fold.width_above.next = self.width_above.val();
+        self.take.next = self.offered.val() && (!self.folds.val() || self.fold.ready.val());
+        // A beat that waits behind a map waits for its last node, too, so that an error of its own comes after it.
+        self.in_ready.next = (self.state.q.val() == MipBuildState::Idle && self.out_free.val())
+            || (self.running.val()
+                && self.on_map.val()
+                && (!self.folds.val() || self.fold.ready.val() || self.in_kind.val() == 0));
+        self.size.next = self.in_valid.val()
+            && self.in_kind.val() == 0
+            && ((self.state.q.val() == MipBuildState::Idle && self.out_free.val())
+                || (self.running.val() && self.on_map.val()));
+
+        // The memory above takes the nodes, the memory of this level is read.
+        self.odd_levels.op.next = self.fold.op.val() && !self.level.q.val().get_bit(0);
+        self.odd_levels.fresh.next = self.fold.op_fresh.val();
+        self.odd_levels.address.next = self.fold.op_address.val();
+        self.odd_levels.max.next = self.fold.op_max.val();
+        self.odd_levels.min.next = self.fold.op_min.val();
+        self.even_levels.op.next = self.fold.op.val() && self.level.q.val().get_bit(0);
+        self.even_levels.fresh.next = self.fold.op_fresh.val();
+        self.even_levels.address.next = bit_cast_to::<U<B>>(self.fold.op_address.val());
+        self.even_levels.max.next = self.fold.op_max.val();
+        self.even_levels.min.next = self.fold.op_min.val();
+        self.reads.next = self.running.val() && !self.on_map.val() && (!self.read_valid.q.val() || self.take.val());
+        self.odd_levels.read.next = self.reads.val() && self.level.q.val().get_bit(0);
+        self.odd_levels.read_address.next = self.read_at.q.val();
+        self.even_levels.read.next = self.reads.val() && !self.level.q.val().get_bit(0);
+        self.even_levels.read_address.next = bit_cast_to::<U<B>>(self.read_at.q.val());
+        if self.reads.val() {
+            self.read_at.d.next = self.read_at.q.val() + 1;
+            self.read_valid.d.next = true;
+        }
+
+        self.advance.next = self.state.q.val() == MipBuildState::Flush
+            && self.fold.idle.val()
+            && !self.odd_levels.busy.val()
+            && !self.even_levels.busy.val();
+        self.fold.clear.next = self.size.val() || self.advance.val();
+        if self.state.q.val() == MipBuildState::Measure {
+            self.state.d.next = MipBuildState::Check;
+        } else if self.state.q.val() == MipBuildState::Check {
+            self.state.d.next = MipBuildState::Run;
+            if !self.sound.val() {
+                self.state.d.next = MipBuildState::Idle;
+                self.failed.d.next = true;
+            }
+        } else if self.take.val() {
+            self.column.d.next = self.column.q.val() + 1;
+            if self.last_column.val() {
+                self.column.d.next = 0.into();
+                self.row.d.next = self.row.q.val() + 1;
+                if self.last_row.val() {
+                    self.state.d.next = MipBuildState::Idle;
+                    if self.folds.val() {
+                        self.state.d.next = MipBuildState::Flush;
+                    }
+                }
+            }
+        } else if self.advance.val() {
+            self.state.d.next = MipBuildState::Run;
+            self.level.d.next = self.level.q.val() + 1;
+            self.width.d.next = self.width_above.val();
+            self.height.d.next = self.height_above.val();
+            self.column.d.next = 0.into();
+            self.row.d.next = 0.into();
+            self.read_at.d.next = 0.into();
+            self.read_valid.d.next = false;
+        }
+        if self.size.val() {
+            self.state.d.next = MipBuildState::Measure;
+            self.level.d.next = 0.into();
+            self.width.d.next = self.in_width.val();
+            self.height.d.next = self.in_height.val();
+            self.column.d.next = 0.into();
+            self.row.d.next = 0.into();
+            self.levels.d.next = self.in_levels.val();
+            self.repeat_u.d.next = self.in_repeat_u.val();
+            self.repeat_v.d.next = self.in_repeat_v.val();
+            self.cells.d.next = self.in_cell.val();
+            self.read_valid.d.next = false;
+            if self.running.val() {
+                self.failed.d.next = true;
+            }
+        }
+        if self.texel.val() && self.state.q.val() == MipBuildState::Idle && self.out_free.val() {
+            self.failed.d.next = true;
+        }
+        if self.out_free.val() {
+            self.sent_valid.d.next = self.take.val() && !self.on_map.val();
+        }
+        if self.take.val() && !self.on_map.val() {
+            self.sent_level.d.next = self.level.q.val();
+            self.sent_i.d.next = self.column.q.val();
+            self.sent_j.d.next = self.row.q.val();
+            self.sent_max.d.next = self.texel_max.val();
+            self.sent_min.d.next = self.texel_min.val();
+            self.sent_last.d.next = self.last_column.val() && self.last_row.val() && !self.folds.val();
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("mip_build")
+    }
+}
+
+ports! {
+    [const M: usize, const A: usize, const B: usize] MipBuild<M, A, B> {
+        inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_levels, in_value, out_ready;
+        outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
+        blocks: fold, odd_levels, even_levels;
+        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, odd_levels, even_levels
+    }
+}
