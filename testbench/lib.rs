@@ -21,6 +21,7 @@ pub mod mip_fetch;
 pub mod probe;
 pub mod remesh;
 pub mod remesher;
+pub mod sat_build;
 pub mod scoreboard;
 pub mod stepped;
 pub mod strip_unit;

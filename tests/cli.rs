@@ -12,7 +12,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 5] = ["vertex_adder", "strip_unit", "remesher", "mip_build", "mip_fetch"];
+const NAMES: [&str; 6] = ["vertex_adder", "strip_unit", "remesher", "mip_build", "mip_fetch", "sat_build"];
 
 /// Exit code, stdout and stderr.
 fn finish(command: &mut Command) -> (Option<i32>, String, String) {
@@ -81,7 +81,7 @@ fn cli_bad_input_exits_with_2_and_says_what_would_be_right() {
     let late = path(folder.path(), "late.vcd");
     fs::write(&stimulus, "# nothing\n 1 2 3\n").unwrap();
     let block =
-        "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher, mip_build, mip_fetch";
+        "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher, mip_build, mip_fetch, sat_build";
     let set = "there is no width set `huge`; --param takes default, position, small, deep";
     for (arguments, sentence) in [
         (vec!["check", "adder"], block),
@@ -422,6 +422,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("remesher", "120"),
         ("mip_build", "2000"),
         ("mip_fetch", "2000"),
+        ("sat_build", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
@@ -480,7 +481,7 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
     let set = WIDTH_SETS.iter().find(|set| set.name == "small").ok_or("no width set")?;
     // The banks of mip_fetch: 2^16 texels at 1,024 a block RAM. Levels in mip_build: 2^14 and 2^13 nodes of two samples.
     for (name, block_rams) in
-        [("vertex_adder", 0), ("strip_unit", 1), ("mip_build", 48), ("mip_fetch", 64)]
+        [("vertex_adder", 0), ("strip_unit", 1), ("mip_build", 48), ("mip_fetch", 64), ("sat_build", 1)]
     {
         let block = relief_testbench::binding::find(name).ok_or("no block")?;
         let report = yosys_synth_ecp5(&emitted(block, set, None)?.design)?;
