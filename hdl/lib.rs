@@ -8,6 +8,7 @@ pub mod mip_fetch;
 pub mod ports;
 pub mod primitives;
 pub mod remesher;
+pub mod sat_build;
 pub mod signal;
 pub mod strip_unit;
 pub mod verilog;

@@ -72,6 +72,8 @@ macro_rules! width_sets {
                 pub type MipBuild = crate::mip_build::MipBuild<{ $m + 1 }, { $t - 2 }, { $t - 3 }>;
                 /// Fetch from pyramids.
                 pub type MipFetch = crate::mip_fetch::MipFetch<{ $m + 1 }, { $t - 2 }>;
+                /// Builder of summed-area tables.
+                pub type SatBuild = crate::sat_build::SatBuild<{ $m + 1 }, $m, $b>;
                 /// Remesher.
                 pub type Remesher = crate::remesher::Remesher<
                     $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,

@@ -65,6 +65,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::remesher::RemesherBinding,
     &crate::mip_build::MipBuildBinding,
     &crate::mip_fetch::MipFetchBinding,
+    &crate::sat_build::SatBuildBinding,
 ];
 
 /// The block of a name.

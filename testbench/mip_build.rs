@@ -130,7 +130,12 @@ impl Maps {
             self.fault();
         }
         let random = &mut self.random;
-        let (width, height) = (random_side(random), random_side(random));
+        let mut side = || match self.maps {
+            // Tiny ones first, so that a short run sees nodes, too.
+            0..=5 => 1 + random.below(3) as usize,
+            _ => random_side(random),
+        };
+        let (width, height) = (side(), side());
         let wrap = random_wrap(random, width, height);
         let centring = if random.chance(30) { Centring::Cell } else { Centring::Node };
         // Without a repeat axis there can be more levels than change anything.

@@ -6,7 +6,7 @@
 //! repeats. A cell takes the first of the two only. So a node is finished every other texel along the row, and goes into
 //! one node of the memory above or into two.
 //!
-//! | port     | format      |   Interval 1; 2 cycles more for a row of an even number of texels, 1 of them in odd rows only
+//! | port     | format      |   Interval 1; behind an odd row 1 cycle more, 2 if the row has an even number of texels
 //! | valid, ready | stream  | of texels, each a maximum and a minimum, with the place in the map as flags
 //! | clear    | Bit         | begins a level   Golden: models::mip_build   Error 0
 //! | op_*     |             | one operation of the memory above; never refused | idle: nothing is pending
