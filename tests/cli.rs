@@ -579,18 +579,24 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
         return Ok(());
     }
     let set = WIDTH_SETS.iter().find(|set| set.name == "small").ok_or("no width set")?;
-    // The banks of mip_fetch: 2^16 texels at 1,024 a block RAM. Levels in mip_build: 2^14 and 2^13 nodes of two samples.
-    for (name, block_rams) in
-        [("vertex_adder", 0), ("strip_unit", 1), ("mip_build", 48), ("mip_fetch", 64), ("sat_build", 1)]
-    {
-        let block = relief_testbench::binding::find(name).ok_or("no block")?;
-        let report = yosys_synth_ecp5(&emitted(block, set, None)?.design)?;
+    // The README's table: LUT4, CCU2C, flip-flops, DP16KD, MULT18X18D.
+    let readme = fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md"))?;
+    let (_, table) = readme.split_once("| block at `small` |").ok_or("the README has no table of cells")?;
+    for block in BLOCKS {
+        let name = block.name();
+        let row = table.lines().find_map(|line| line.strip_prefix(&format!("| {name} |"))).ok_or(name)?;
+        let stated = row.split('|').map_while(|cell| cell.trim().parse::<usize>().ok()).collect::<Vec<_>>();
+        let report = yosys_synth_ecp5(&emitted(*block, set, None)?.design)?;
         println!("{name}: {report}");
         assert_eq!(report.latches, Vec::<String>::new(), "{name}");
         // The sizes of sixteen levels are all that is too small for block RAM.
         let distributed = if name == "mip_fetch" { 16 } else { 0 };
         assert!(report.distributed_rams <= distributed, "{name}: its memories belong into block RAM: {report}");
-        assert!(report.block_rams >= block_rams && report.flip_flops > 0, "{name}: {report}");
+        // Versions of Yosys differ a little in what they find.
+        let most = |stated: usize| stated + stated / 10;
+        assert!(report.luts <= most(stated[0]) && report.carries <= most(stated[1]), "{name}: {report}");
+        assert!(report.flip_flops > 0 && report.flip_flops <= most(stated[2]), "{name}: {report}");
+        assert_eq!([report.block_rams, report.multipliers], stated[3..5], "{name}: {report}");
     }
     Ok(())
 }

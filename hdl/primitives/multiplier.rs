@@ -73,7 +73,8 @@ impl<const A: usize, const B: usize, const P: usize> Logic for Multiplier<A, B, 
     }
     fn hdl(&self) -> Verilog {
         Verilog::Custom(format!(
-            "{INLINE}/* verilator lint_off WIDTH */\nalways @(posedge clock) if (@enable) @p <= @a * @b;\n\
+            "{INLINE}/* verilator lint_off WIDTH */ // The assignment extends the signed factors; done by hand, \
+             synthesis would not see the small product.\nalways @(posedge clock) if (@enable) @p <= @a * @b;\n\
              /* verilator lint_on WIDTH */\n"
         ))
     }

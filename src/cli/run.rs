@@ -7,7 +7,7 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use relief_hdl::widths::default;
+use relief_hdl::widths::WIDTH_SETS;
 use relief_models::mesh::Progress;
 use relief_models::scene;
 use relief_testbench::binding::find;
@@ -50,6 +50,15 @@ const WAVEFORM: u64 = 400;
 
 /// Reads, draws and writes.
 pub fn run(arguments: &Arguments) -> Result {
+    let outcome = draw(arguments);
+    if outcome.is_err() {
+        // Folders that were made for nothing.
+        let _ = fs::remove_dir(arguments.out.join("rtl")).and_then(|()| fs::remove_dir(&arguments.out));
+    }
+    outcome
+}
+
+fn draw(arguments: &Arguments) -> Result {
     let begun = Instant::now();
     let scene = scene::read(&arguments.scene)?;
     for warning in &scene.warnings {
@@ -69,9 +78,9 @@ pub fn run(arguments: &Arguments) -> Result {
     let open = |name: &str| OutputFile::open(&out.join(name));
     let files = [open("frame.png")?, open("mesh.png")?, open("mesh.obj")?, open("report.json")?];
     let rtl = BLOCKS.map(|name| OutputFolder::open(&out.join("rtl").join(name)));
+    let rtl = rtl.into_iter().collect::<std::result::Result<Vec<_>, _>>()?;
 
-    let set = &relief_hdl::widths::WIDTH_SETS[0];
-    debug_assert_eq!(*set, default::SET);
+    let set = &WIDTH_SETS[0];
     let meter = Meter::new();
     let mut pipeline = Pipeline::new(set);
     let folder = tempfile::tempdir()?;
@@ -93,7 +102,6 @@ pub fn run(arguments: &Arguments) -> Result {
 
     let stale = |name: &str| name.starts_with("relief_");
     for (name, folder) in BLOCKS.into_iter().zip(rtl) {
-        let folder = folder?;
         let block = find(name).ok_or("a block of the pipeline is not in the list")?;
         emission(block, set)?.write(folder.path())?;
         folder.commit(stale)?;

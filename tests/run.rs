@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief run` as a program: what it writes, closed bodies, bad scenes, and the Verilog behind it.
+
+use relief_models::mesh::{self, CheckOptions};
+use relief_testbench::cosim::tools;
+use std::collections::HashMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Exit code, stdout and stderr.
+fn run(scene: &Path, options: &[&str]) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_relief")).arg("run").arg(scene).args(options).output().unwrap();
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn scene(name: &str) -> String {
+    fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)).unwrap()
+}
+
+/// Edges of the mesh that are not used as often in one direction as in the other.
+fn open_edges(obj: &str) -> usize {
+    let mut uses: HashMap<[u32; 2], i64> = HashMap::new();
+    for line in obj.lines().filter_map(|line| line.strip_prefix("f ")) {
+        let corners: Vec<u32> = line.split(' ').map(|word| word.parse().unwrap()).collect();
+        for k in 0..3 {
+            let (from, to) = (corners[k], corners[(k + 1) % 3]);
+            *uses.entry([from.min(to), from.max(to)]).or_default() += if from < to { 1 } else { -1 };
+        }
+    }
+    uses.values().filter(|uses| **uses != 0).count()
+}
+
+#[test]
+fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("small.toml");
+    let maps = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/maps/jacksboro.png");
+    let text = scene("jacksboro.toml").replace("maps/jacksboro.png", maps.to_str().ok_or("no path")?);
+    fs::write(&path, text.replace("cell_px = 2.0", "cell_px = 8.0").replace("[640, 480]", "[160, 120]"))?;
+    let out = folder.path().join("out");
+    let (code, stdout, stderr) = run(&path, &["--out", out.to_str().ok_or("no path")?]);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let mut names: Vec<_> =
+        fs::read_dir(&out)?.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    let expected = ["frame.png", "mesh.obj", "mesh.png", "pipeline.gtkw", "pipeline.vcd", "report.json", "rtl"];
+    assert_eq!(names, expected);
+    let picture = image::open(out.join("frame.png"))?;
+    assert_eq!((picture.width(), picture.height()), (160, 120));
+    let report: serde_json::Value = serde_json::from_str(&fs::read_to_string(out.join("report.json"))?)?;
+    assert_eq!(report["mismatches"], 0);
+    assert!(report["pipeline"]["triangles"].as_u64().is_some_and(|triangles| triangles > 300), "{report}");
+    assert!(report["pixels"].as_u64().is_some_and(|pixels| pixels > 3_000), "{report}");
+    for block in report["hardware"].as_array().ok_or("no blocks")? {
+        assert!(block["beats"].as_u64().is_some_and(|beats| beats > 300), "{block}");
+    }
+    // A group for each base triangle, and one rim.
+    let obj = fs::read_to_string(out.join("mesh.obj"))?;
+    let groups: Vec<&str> = obj.lines().filter_map(|line| line.strip_prefix("g base_")).collect();
+    assert_eq!(groups, (0..128).map(|k| k.to_string()).collect::<Vec<_>>());
+    let mesh = mesh::read(&out.join("mesh.obj"), None, &())?;
+    let checked = mesh::check(&mesh, &CheckOptions::default(), &());
+    assert!(checked.to_string().contains("in 1 boundary loop: OK"), "{checked}");
+    let waves = relief_waves::read(out.join("pipeline.vcd"))?;
+    for signal in ["relief.remesher.out_valid", "relief.mip_fetch.in_valid", "relief.strip_unit.out_valid"] {
+        assert!(waves.trace(signal).is_some_and(|trace| trace.changes() > 1), "{signal}");
+    }
+    for block in ["remesher", "mip_fetch", "strip_unit"] {
+        assert!(out.join("rtl").join(block).join(format!("relief_{block}.sv")).is_file());
+    }
+    Ok(())
+}
+
+/// A sphere with seam and poles, nothing culled: every edge is used as often one way as the other.
+#[test]
+fn run_keeps_a_closed_body_closed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for cell in [3, 9, 27] {
+        let path = folder.path().join("sphere.toml");
+        fs::write(&path, scene("sphere.toml").replace("cell_px = 2.0", &format!("cell_px = {cell}.0\ncull = false")))?;
+        let out = folder.path().join("out");
+        let (code, stdout, stderr) = run(&path, &["--out", out.to_str().ok_or("no path")?]);
+        assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+        let obj = fs::read_to_string(out.join("mesh.obj"))?;
+        assert!(obj.lines().filter(|line| line.starts_with("f ")).count() > 500);
+        assert_eq!(open_edges(&obj), 0, "cells of {cell} pixels");
+    }
+    Ok(())
+}
+
+#[test]
+fn run_verilog_follows_every_cycle() -> Outcome {
+    if !tools::require_all(&["verilator", "g++"], "the pipeline in Verilator")? {
+        return Ok(());
+    }
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("donut.toml");
+    let text = scene("half_donut.toml").replace("cell_px = 2.0", "cell_px = 16.0").replace("[256, 256]", "[48, 40]");
+    fs::write(&path, text)?;
+    let out = folder.path().join("out");
+    let (code, stdout, stderr) = run(&path, &["--out", out.to_str().ok_or("no path")?, "--engine", "verilator"]);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let report: serde_json::Value = serde_json::from_str(&fs::read_to_string(out.join("report.json"))?)?;
+    for block in report["hardware"].as_array().ok_or("no blocks")? {
+        assert!(block["followed_cycles"].as_u64().is_some_and(|cycles| cycles > 500), "{block}");
+    }
+    Ok(())
+}
+
+#[test]
+fn run_bad_input_is_a_sentence_and_writes_nothing() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let good = scene("half_donut.toml");
+    for (from, to, sentence) in [
+        ("near = 0.3", "near = 0.0", "near"),
+        ("far = 20.0", "far = 0.1", "far"),
+        ("near = 0.3", "near = nan", "near"),
+        ("up = [0.0, 0.0, 1.0]", "up = [0.0, 0.0, 1.0]\nzoom = 2", "zoom"),
+        ("viewport = [640, 480]", "viewport = [0, 480]", "viewport"),
+        ("map = { kind = \"half_donut\", size = [256, 256] }", "map = { file = \"none.png\" }", "none.png"),
+        ("size = [256, 256]", "size = [4000, 4000]", "limit"),
+        ("target = [0.0, 0.0, 0.1]", "target = [0.0, -2.6, 1.7]", "target"),
+        ("displacement = [0.0, 0.3]", "displacement = [0.0, inf]", "displacement"),
+    ] {
+        assert!(good.contains(from), "{from}");
+        let path = folder.path().join("bad.toml");
+        fs::write(&path, good.replace(from, to))?;
+        let (code, _, stderr) = run(&path, &["--out", out.to_str().ok_or("no path")?]);
+        assert_eq!(code, Some(2), "{to}: {stderr}");
+        assert!(stderr.starts_with("error: ") && stderr.contains(sentence), "{to}: {stderr}");
+        assert!(!out.exists(), "{to}");
+    }
+    let (code, _, stderr) = run(Path::new("/nowhere/scene.toml"), &[]);
+    assert!(code == Some(2) && stderr.contains("/nowhere/scene.toml"), "{stderr}");
+    Ok(())
+}
