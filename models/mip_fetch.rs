@@ -22,7 +22,7 @@
 //! on a node it is the texel.
 //!
 //! The memory has four banks, so that all four texels come in one cycle: texel (i, j) of level L stands in bank
-//! (j & 1) * 2 + (i & 1), word base[L] + (j >> 1) * pitch[L] + (i >> 1).
+//! `(j & 1) * 2 + (i & 1)`, word `base[L] + (j >> 1) * pitch[L] + (i >> 1)`.
 
 use crate::fixed::shift_round_half_up;
 use crate::mip_build::{Level, MAX_LEVELS, Pyramid, Wrap};

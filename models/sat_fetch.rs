@@ -60,7 +60,7 @@ pub fn fetch(table: &Table, border: Border, (x, y): (i64, i64), (a, b): (u64, u6
     let at = |x: u64, y: u64| table.at(x as usize, y as usize);
     let sum = at(x1, y1).wrapping_sub(at(x1, y0)).wrapping_sub(at(x0, y1)).wrapping_add(at(x0, y0));
     let area = (x1 - x0) * (y1 - y0);
-    Summed { sum: sum & ((1 << table.bits) - 1), area, error: u128::from(area) * 65_535 >> table.bits != 0 }
+    Summed { sum: sum & ((1 << table.bits) - 1), area, error: (u128::from(area) * 65_535) >> table.bits != 0 }
 }
 
 /// Exact reference: the texels of the rectangle, one by one, and their number.

@@ -75,7 +75,7 @@ pub(crate) fn random_side(random: &mut Random) -> usize {
 
 /// Borders that a map of this size allows.
 pub(crate) fn random_wrap(random: &mut Random, width: usize, height: usize) -> [Wrap; 2] {
-    [width, height].map(|side| if side % 2 == 0 && random.chance(50) { Wrap::Repeat } else { Wrap::Clamp })
+    [width, height].map(|side| if side.is_multiple_of(2) && random.chance(50) { Wrap::Repeat } else { Wrap::Clamp })
 }
 
 /// Small maps one behind the other; from the twentieth on, a fault now and then.

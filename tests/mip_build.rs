@@ -74,7 +74,8 @@ fn mip_build_builds_every_small_map() {
     let (mut all, mut nodes) = (Vec::new(), 0);
     for (width, height) in (1..=9).flat_map(|w| (1..=9).map(move |h| (w, h))) {
         for centring in [Centring::Node, Centring::Cell] {
-            let axis = |side: usize| if side % 2 == 0 { vec![Wrap::Clamp, Wrap::Repeat] } else { vec![Wrap::Clamp] };
+            let axis =
+                |side: usize| if side.is_multiple_of(2) { vec![Wrap::Clamp, Wrap::Repeat] } else { vec![Wrap::Clamp] };
             for wrap in axis(width).into_iter().flat_map(|u| axis(height).into_iter().map(move |v| [u, v])) {
                 let levels = max_levels(width, height, centring, wrap);
                 let size = BuildSize { width, height, wrap, centring, levels };

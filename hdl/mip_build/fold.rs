@@ -116,7 +116,7 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
 
         self.joined_max.next = self.max.val();
         self.joined_min.next = self.min.val();
-        if !self.first_column.val() && !(self.cells.val() && !self.odd_column.val()) {
+        if !self.first_column.val() && (self.odd_column.val() || !self.cells.val()) {
             if self.open_max.q.val() > self.max.val() {
                 self.joined_max.next = self.open_max.q.val();
             }

@@ -19,7 +19,7 @@ fn random_map(count: usize, seed: u64) -> Vec<u16> {
 
 /// Every kind of border that maps of this size allow.
 fn wraps(width: usize, height: usize) -> Vec<[Wrap; 2]> {
-    let axis = |side: usize| if side % 2 == 0 { vec![Wrap::Clamp, Wrap::Repeat] } else { vec![Wrap::Clamp] };
+    let axis = |side: usize| if side.is_multiple_of(2) { vec![Wrap::Clamp, Wrap::Repeat] } else { vec![Wrap::Clamp] };
     axis(width).into_iter().flat_map(|u| axis(height).into_iter().map(move |v| [u, v])).collect()
 }
 
