@@ -103,7 +103,7 @@ macro_rules! width_sets {
 
 width_sets! { $;
     default "default" "Nine components of 32 bits: position, normal, texture coordinates, 1/w; viewports to 4,096":
-        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40;
+        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 19, B 40;
     position "position" "Three components: the remesher alone, on geometry":
         L 3, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40;
     small "small" "Nine components of 24 bits for 640 x 480":

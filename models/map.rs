@@ -26,7 +26,7 @@ pub use procedural::Procedural;
 pub use read_png::{read, read_from};
 
 /// Words of the pyramid memory in the default width set, over all levels.
-pub const MEMORY_WORDS: u64 = 262_144;
+pub const MEMORY_WORDS: u64 = 524_288;
 
 /// A map of 16-bit heights.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -50,8 +50,8 @@ fn map_refuses_what_is_no_map() {
     let mut empty = grey16(1, 1);
     empty[16..24].fill(0);
     assert_eq!(refusal(&empty), "map.png: is a map of 0 x 0 samples; at least 1 x 1 is expected");
-    let limit = "map.png: is a map of 513 x 512 = 262656 samples, beyond the limit of the map memory, 262144 words";
-    assert_eq!(refusal(&grey16(513, 512)), limit);
+    let limit = "map.png: is a map of 1025 x 512 = 524800 samples, beyond the limit of the map memory, 524288 words";
+    assert_eq!(refusal(&grey16(1025, 512)), limit);
     // A header that promises 2^62 samples costs nothing.
     let mut vast = grey16(1, 1);
     vast[16..24].fill(0x7F);

@@ -218,18 +218,18 @@ fn scene_refuses_bad_objects() {
         (
             "[8, 8]",
             "[8, 0]",
-            "the second number of `size` is 0; a number from 1 to 262144 is expected (262144 is the words of the map memory)",
+            "the second number of `size` is 0; a number from 1 to 524288 is expected (524288 is the words of the map memory)",
         ),
         (
             "[8, 8]",
-            "[1024, 257]",
-            "the map ramp of 1024 x 257 samples is beyond the limit of 262144 words of the map memory; a smaller one is \
+            "[1024, 513]",
+            "the map ramp of 1024 x 513 samples is beyond the limit of 524288 words of the map memory; a smaller one is \
              expected",
         ),
         (
             "[8, 8]",
-            "[512, 512]",
-            "the map ramp of 512 x 512 samples takes 350556 words with its levels and is beyond the limit of 262144 words \
+            "[700, 700]",
+            "the map ramp of 700 x 700 samples takes 654874 words with its levels and is beyond the limit of 524288 words \
              of the map memory; a smaller one is expected",
         ),
         (

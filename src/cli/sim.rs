@@ -191,10 +191,7 @@ pub fn run(arguments: &Arguments) -> Result {
         }
     });
     meter.finish();
-    let played = match played {
-        Ok(played) => played,
-        Err(error) => return Err(error.into()),
-    };
+    let played = played?;
 
     let counts = played.counts;
     let (name, idle, stall) = (block.name(), pattern.idle, pattern.stall);
