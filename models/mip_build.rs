@@ -229,7 +229,7 @@ fn build(
             }
         }
         if poles {
-            replace_poles(&mut below, extremum);
+            replace_poles(&mut below, height - 1, level, centring, extremum);
         }
         let next = above(&below, centring, wrap, extremum);
         built.push(std::mem::replace(&mut below, next));
@@ -265,11 +265,18 @@ fn neighbours(i: usize, side: usize, centring: Centring, wrap: Wrap) -> [usize; 
     })
 }
 
-fn replace_poles(level: &mut Level, extremum: Extremum) {
-    for row in [0, level.height - 1] {
-        let row = &mut level.samples[row * level.width..(row + 1) * level.width];
-        let pole = row.iter().copied().reduce(|a, b| extremum.of(a, b)).unwrap_or(0);
-        row.fill(pole);
+/// Gives each pole one value: the extremum of the rows that a point on it reads. The last row of the map may lie between
+/// two rows of nodes; then both are the pole's.
+fn replace_poles(level: &mut Level, last: usize, number: usize, centring: Centring, extremum: Extremum) {
+    let lower = level.height - 1;
+    let bottom = match centring {
+        Centring::Node => (last >> number).min(lower)..=last.div_ceil(1 << number).min(lower),
+        Centring::Cell => lower..=lower,
+    };
+    for rows in [0..=0, bottom] {
+        let rows = &mut level.samples[rows.start() * level.width..(rows.end() + 1) * level.width];
+        let pole = rows.iter().copied().reduce(|a, b| extremum.of(a, b)).unwrap_or(0);
+        rows.fill(pole);
     }
 }
 

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `relief run` as a program: what it writes, closed bodies, bad scenes, and the Verilog behind it.
 
+use relief_hdl::widths::WIDTH_SETS;
 use relief_models::mesh::{self, CheckOptions};
+use relief_models::mip_build;
+use relief_models::mip_fetch::{Command, Filter};
 use relief_testbench::cosim::tools;
+use relief_testbench::mip_fetch::MipFetchBinding;
+use relief_testbench::scoreboard::{Pattern, Scoreboard, Until};
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
+use std::process;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Exit code, stdout and stderr.
 fn run(scene: &Path, options: &[&str]) -> (Option<i32>, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_relief")).arg("run").arg(scene).args(options).output().unwrap();
+    let output =
+        process::Command::new(env!("CARGO_BIN_EXE_relief")).arg("run").arg(scene).args(options).output().unwrap();
     let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
     (output.status.code(), text(output.stdout), text(output.stderr))
 }
@@ -79,16 +85,51 @@ fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
 #[test]
 fn run_keeps_a_closed_body_closed() -> Outcome {
     let folder = tempfile::tempdir()?;
-    for cell in [3, 9, 27] {
+    // A map of 60 rows puts its last row between the nodes of most levels.
+    for (cell, map) in [(3, "[256, 129]"), (9, "[256, 129]"), (27, "[256, 129]"), (9, "[96, 60]")] {
         let path = folder.path().join("sphere.toml");
-        fs::write(&path, scene("sphere.toml").replace("cell_px = 2.0", &format!("cell_px = {cell}.0\ncull = false")))?;
+        let text = scene("sphere.toml");
+        assert!(text.contains("[256, 129]") && text.contains("cell_px = 2.0"));
+        let text = text.replace("cell_px = 2.0", &format!("cell_px = {cell}.0\ncull = false"));
+        fs::write(&path, text.replace("[256, 129]", map))?;
         let out = folder.path().join("out");
         let (code, stdout, stderr) = run(&path, &["--out", out.to_str().ok_or("no path")?]);
         assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
         let obj = fs::read_to_string(out.join("mesh.obj"))?;
         assert!(obj.lines().filter(|line| line.starts_with("f ")).count() > 500);
-        assert_eq!(open_edges(&obj), 0, "cells of {cell} pixels");
+        assert_eq!(open_edges(&obj), 0, "cells of {cell} pixels, a map of {map}");
     }
+    Ok(())
+}
+
+/// Every texel of the map, as the hardware fetches it, is that of another reader of the file.
+#[test]
+fn run_heights_are_those_of_the_file() -> Outcome {
+    use relief_testbench::mip_fetch::{command_beat, load_beats};
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/maps/jacksboro.png");
+    let (map, _) = relief_models::map::read(&path, relief_models::map::MEMORY_WORDS)?;
+    let mut reader = png::Decoder::new(std::io::BufReader::new(fs::File::open(&path)?)).read_info()?;
+    let mut bytes = vec![0; reader.output_buffer_size().ok_or("no size")?];
+    let info = reader.next_frame(&mut bytes)?;
+    assert_eq!((info.width, info.height, info.bit_depth), (403, 344, png::BitDepth::Sixteen));
+    let expected: Vec<u64> = bytes.chunks(2).map(|pair| u64::from(pair[0]) << 16 | u64::from(pair[1]) << 8).collect();
+
+    let clamp = [mip_build::Wrap::Clamp; 2];
+    let (node, max) = (mip_build::Centring::Node, mip_build::Extremum::Max);
+    let pyramid = mip_build::golden(map.width, map.height, &map.samples, node, clamp, max, 1)?;
+    let texels = (0..344u32).flat_map(|v| (0..403u32).map(move |u| (u << 16, v << 16)));
+    let fetches = texels.map(|(u, v)| command_beat(&Command::Fetch { level: 0, u, v, filter: Filter::Bilinear }));
+    let beats = load_beats(&pyramid).into_iter().chain(fetches);
+    let mut scoreboard = Scoreboard::new(&MipFetchBinding, &WIDTH_SETS[0], Box::new(beats), Pattern::NONE);
+    let value = scoreboard.layout().output("out_value");
+    let mut heights = Vec::new();
+    let valid = scoreboard.layout().out_valid;
+    let outcome = scoreboard.run(Until::Exhausted, &mut |_, _, outputs| {
+        heights.extend((outputs[valid] == 1).then(|| outputs[value]));
+        Ok(())
+    });
+    outcome.map_err(|mismatch| mismatch.to_string())?;
+    assert!(heights == expected, "{} heights", heights.len());
     Ok(())
 }
 

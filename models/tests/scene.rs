@@ -91,7 +91,7 @@ fn scene_takes_every_field() {
     let tube = &scene.objects[0];
     assert_eq!((tube.displacement, tube.wrap, tube.poles), ([-0.1, 0.2], [Wrap::Repeat, Wrap::Clamp], false));
     assert_eq!(tube.mesh.triangles.len(), 30);
-    assert_eq!((tube.mesh.vertices[0].position, tube.colour), (dvec3(1.25, 2.0, 4.0), [1.0, 0.5, 0.0]));
+    assert_eq!((tube.mesh.vertices[0].position, tube.colour), (dvec3(1.25, 2.0, 4.0), Some([1.0, 0.5, 0.0])));
     assert_eq!(scene.objects[1].wrap, [Wrap::Clamp; 2]);
     assert_eq!(scene.objects[1].map.samples.len(), 1);
     assert_eq!([scene.lights[0].direction, scene.lights[1].direction], [DVec3::Z, DVec3::X]);
