@@ -17,11 +17,12 @@
 //! assert_eq!(levels([8, 5], [Wrap::Repeat, Wrap::Clamp]), [[8, 5], [4, 3], [2, 2]]);
 //! ```
 
-use serde::Deserialize;
+use crate::mip_build::{Centring, max_levels, side_above};
 
 mod procedural;
 mod read_png;
 
+pub use crate::mip_build::Wrap;
 pub use procedural::Procedural;
 pub use read_png::{read, read_from};
 
@@ -46,41 +47,11 @@ impl HeightMap {
     }
 }
 
-/// What lies beyond the rim of a map, along one axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Wrap {
-    /// The rim itself.
-    #[default]
-    Clamp,
-    /// The map again. Its period has to be even, or the four banks of the memory cannot be read in one cycle.
-    Repeat,
-}
-
-impl Wrap {
-    /// Samples of the next level of an axis that has `n`.
-    fn next(self, n: usize) -> usize {
-        match self {
-            Wrap::Clamp => n / 2 + 1,
-            Wrap::Repeat => n / 2,
-        }
-    }
-}
-
-/// Sizes of the levels of a map's pyramid: down to where no axis shrinks, or where a period would become odd.
+/// Sizes of the levels of a map's pyramid, level 0 first: as many as [`max_levels`].
 pub fn levels(size: [usize; 2], wrap: [Wrap; 2]) -> Vec<[usize; 2]> {
-    let mut levels = vec![size];
-    let mut now = size;
-    loop {
-        // A single sample stays one: its neighbours are itself.
-        let next = [0, 1].map(|axis| if now[axis] == 1 { 1 } else { wrap[axis].next(now[axis]) });
-        let has_odd_period = (0..2).any(|axis| wrap[axis] == Wrap::Repeat && next[axis] % 2 == 1);
-        if next == now || has_odd_period {
-            return levels;
-        }
-        levels.push(next);
-        now = next;
-    }
+    let count = max_levels(size[0], size[1], Centring::Node, wrap);
+    let above = |size: &[usize; 2]| Some([0, 1].map(|axis| side_above(size[axis], Centring::Node, wrap[axis])));
+    std::iter::successors(Some(size), above).take(count).collect()
 }
 
 /// Words of all levels of a map's pyramid.

@@ -19,6 +19,7 @@
 //! Error: 0; maxima copy. A repeat axis needs an even period at every level, so that the four texels round a point stand
 //! in four different banks of the memory that reads them.
 
+use serde::Deserialize;
 use thiserror::Error;
 
 /// Levels that a pyramid has at most: a level is a number of four bits, and so is their count.
@@ -34,11 +35,13 @@ pub enum Centring {
 }
 
 /// What lies beyond the border of an axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Wrap {
     /// The border sample.
+    #[default]
     Clamp,
-    /// The map again; its side is the period.
+    /// The map again; its side is the period, which has to be even, or the four banks cannot be read in one cycle.
     Repeat,
 }
 

@@ -13,9 +13,8 @@ use crate::remesher::format;
 use relief_hdl::widths::WidthSet;
 use relief_models::draw::{self, Assembled, CameraView, Draw, DrawError, DrawVertex, MapInfo};
 use relief_models::light::Material;
-use relief_models::map::Wrap;
 use relief_models::mesh::Progress;
-use relief_models::mip_build::{self, Centring, Extremum, MipError, Pyramid};
+use relief_models::mip_build::{self, Centring, Extremum, MipError, Pyramid, Wrap};
 use relief_models::raster::{Corner, Frame};
 use relief_models::scene::{Object, Scene};
 use relief_models::step::Vertex;
@@ -145,10 +144,7 @@ const GOLDEN: &[&str] =
 /// The map has none, or it does not fit the memory.
 pub fn pyramid_of(at: usize, object: &Object, set: &WidthSet) -> Result<Pyramid, FrameError> {
     let map = || object.map_name.clone();
-    let wrap = object.wrap.map(|wrap| match wrap {
-        Wrap::Clamp => mip_build::Wrap::Clamp,
-        Wrap::Repeat => mip_build::Wrap::Repeat,
-    });
+    let wrap = object.wrap;
     let (width, height, samples) = (object.map.width, object.map.height, &object.map.samples);
     let levels = mip_build::max_levels(width, height, Centring::Node, wrap);
     let build = if object.poles { mip_build::golden_with_poles } else { mip_build::golden };

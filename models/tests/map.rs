@@ -127,9 +127,11 @@ fn map_levels_and_words() {
     assert_eq!(levels([5, 4], [Clamp, Clamp]), [[5, 4], [3, 3], [2, 2]]);
     // A period of 6 cannot be halved twice.
     assert_eq!(levels([12, 9], [Repeat, Clamp]), [[12, 9], [6, 5]]);
+    // Two samples of a clamp axis stay two.
+    assert_eq!(levels([2, 2], [Clamp, Clamp]), [[2, 2]]);
     assert_eq!(words([512, 257], [Repeat, Clamp]), 175_784);
     assert_eq!(words([403, 344], [Clamp, Clamp]), 185_618);
-    assert!(words([512, 512], [Clamp, Clamp]) > MEMORY_WORDS);
+    assert!(words([626, 626], [Clamp, Clamp]) <= MEMORY_WORDS && words([627, 627], [Clamp, Clamp]) > MEMORY_WORDS);
 }
 
 proptest! {
