@@ -20,7 +20,7 @@ use relief_models::scene::{Object, Scene};
 use relief_models::step::Vertex;
 use serde::Serialize;
 use std::collections::HashMap;
-use std::fmt::Write;
+use std::io::Write;
 
 /// Lanes of a displaced vertex that say where it is.
 type Place = [i64; 3];
@@ -65,6 +65,9 @@ pub enum FrameError {
         /// Words that there are.
         limit: usize,
     },
+    /// The mesh cannot be written.
+    #[error("the mesh cannot be written: {0}")]
+    Output(#[from] std::io::Error),
     /// The hardware is at fault, or cannot be run.
     #[error("object {object}: {cause}")]
     Pipeline {
@@ -88,8 +91,6 @@ pub struct Rendered {
     pub frame: Frame,
     /// The same with the edges of the triangles, larger where it fits.
     pub edges: Frame,
-    /// The displaced mesh as Wavefront OBJ: a group `base_<I>` for each base triangle, counted over all objects.
-    pub obj: String,
     /// The figures.
     pub report: Report,
 }
@@ -189,15 +190,66 @@ pub fn draw_of(at: usize, scene: &Scene, object: &Object, levels: usize, set: &W
     Ok(draw)
 }
 
-/// Takes a scene through the pipeline.
+/// Writes the displaced mesh of an object as Wavefront OBJ, as its triangles come.
+struct Mesh<'a> {
+    draw: &'a Draw,
+    out: &'a mut dyn Write,
+    /// Numbers of the points: equal integers are one vertex.
+    known: HashMap<Place, u64>,
+    vertices: u64,
+    /// Groups begun, over all objects.
+    groups: u64,
+    error: Option<std::io::Error>,
+}
+
+impl Mesh<'_> {
+    fn put(&mut self, line: std::fmt::Arguments<'_>) {
+        if self.error.is_none() {
+            self.error = self.out.write_fmt(line).err();
+        }
+    }
+    /// Begins the groups below number `end`: those of culled base triangles stay empty.
+    fn groups_to(&mut self, end: u64) {
+        while self.groups < end {
+            let group = self.groups;
+            self.put(format_args!("g base_{group}\n"));
+            self.groups += 1;
+        }
+    }
+    /// Whether the triangle is in the mesh. With two equal corners it is not: both ways along one edge, it closes nothing
+    /// and opens nothing. Poles make such triangles.
+    fn triangle(&mut self, triangle: &[Vertex; 3]) -> bool {
+        let [a, b, c] = [0, 1, 2].map(|k| {
+            let vertex = &triangle[k];
+            let place = [vertex[0], vertex[1], vertex[2]];
+            if let Some(number) = self.known.get(&place) {
+                return *number;
+            }
+            let point = self.draw.world(vertex);
+            self.put(format_args!("v {} {} {}\n", point.x, point.y, point.z));
+            self.vertices += 1;
+            self.known.insert(place, self.vertices);
+            self.vertices
+        });
+        let kept = a != b && b != c && c != a;
+        if kept {
+            self.put(format_args!("f {a} {b} {c}\n"));
+        }
+        kept
+    }
+}
+
+/// Takes a scene through the pipeline. `obj` gets the displaced mesh as Wavefront OBJ: a group `base_<I>` for each base
+/// triangle, counted over all objects.
 ///
 /// # Errors
-/// The scene does not fit, or the hardware is at fault.
+/// The scene does not fit, the hardware is at fault, or `obj` takes no more.
 pub fn render(
     scene: &Scene,
     set: &'static WidthSet,
     pipeline: &mut Pipeline,
     mut recording: Option<PipelineRecording>,
+    obj: &mut dyn Write,
     progress: &dyn Progress,
 ) -> Result<(Rendered, Option<PipelineRecording>), FrameError> {
     // Everything is refused before anything is drawn.
@@ -212,11 +264,11 @@ pub fn render(
     let mut out = Rendered {
         frame: Frame::new(width, height),
         edges: Frame::new(width * scale, height * scale),
-        obj: String::from("# displaced mesh, written by relief run\n"),
         report: Report { version: 1, golden: GOLDEN.to_vec(), ..Report::default() },
     };
     let total = draws.iter().map(|(draw, _)| draw.triangles.len() as u64).sum();
     progress.phase("drawing", total);
+    writeln!(obj, "# displaced mesh, written by relief run")?;
     let mut vertices = 0;
     for (at, (draw, pyramid)) in draws.iter().enumerate() {
         let fail = |cause| FrameError::Pipeline { object: at, cause };
@@ -232,46 +284,30 @@ pub fn render(
                 bases.extend(pieces);
             }
         }
-        let mut triangles: Vec<Vec<[Vertex; 3]>> = vec![Vec::new(); draw.triangles.len()];
-        let done = out.report.base_triangles;
+        let first = out.report.base_triangles;
+        let mut mesh = Mesh { draw, out: &mut *obj, known: HashMap::new(), vertices, groups: first, error: None };
+        let (report, frame, edges) = (&mut out.report, &mut out.frame, &mut out.edges);
         pipeline
             .draw(draw, &bases, &mut recording, &mut |base, triangle| {
-                let index = owners[base];
-                progress.advance(done + index as u64);
-                triangles[index].push(triangle);
+                let number = first + owners[base] as u64;
+                progress.advance(number);
+                mesh.groups_to(number + 1);
+                if !Draw::is_drawable(&triangle) {
+                    report.invalid_triangles += 1;
+                    return;
+                }
+                let colour = draw.shade(triangle, &lights);
+                let corners = triangle.map(corner);
+                report.drawn_triangles += 1;
+                report.fragments += frame.triangle(corners, colour);
+                edges.triangle_with_edges(corners.map(|corner| corner.scaled(scale as i32)), colour);
+                report.collapsed_triangles += u64::from(!mesh.triangle(&triangle));
             })
             .map_err(fail)?;
-        let mut known: HashMap<Place, usize> = HashMap::new();
-        for triangles in &triangles {
-            let _ = writeln!(out.obj, "g base_{}", out.report.base_triangles);
-            out.report.base_triangles += 1;
-            for triangle in triangles {
-                if !Draw::is_drawable(triangle) {
-                    out.report.invalid_triangles += 1;
-                    continue;
-                }
-                let colour = draw.shade(*triangle, &lights);
-                let corners = triangle.map(corner);
-                out.report.drawn_triangles += 1;
-                out.report.fragments += out.frame.triangle(corners, colour);
-                out.edges.triangle_with_edges(corners.map(|corner| corner.scaled(scale as i32)), colour);
-                // Equal integers are one vertex.
-                let numbers = triangle.map(|vertex| {
-                    *known.entry([vertex[0], vertex[1], vertex[2]]).or_insert_with(|| {
-                        let point = draw.world(&vertex);
-                        let _ = writeln!(out.obj, "v {} {} {}", point.x, point.y, point.z);
-                        vertices += 1;
-                        vertices
-                    })
-                });
-                // Two equal corners: both ways along one edge, which closes nothing and opens nothing (poles make them).
-                let [a, b, c] = numbers;
-                match a == b || b == c || c == a {
-                    true => out.report.collapsed_triangles += 1,
-                    false => drop(writeln!(out.obj, "f {a} {b} {c}")),
-                }
-            }
-        }
+        report.base_triangles += draw.triangles.len() as u64;
+        mesh.groups_to(report.base_triangles);
+        vertices = mesh.vertices;
+        mesh.error.map_or(Ok(()), Err)?;
     }
     out.report.pipeline = pipeline.counts();
     out.report.pixels = out.frame.depth.iter().filter(|depth| **depth > 0).count() as u64;

@@ -76,7 +76,9 @@ fn draw(arguments: &Arguments) -> Result {
     let out = &arguments.out;
     fs::create_dir_all(out).map_err(|error| format!("{}: the folder cannot be made: {error}", out.display()))?;
     let open = |name: &str| OutputFile::open(&out.join(name));
-    let files = [open("frame.png")?, open("mesh.png")?, open("mesh.obj")?, open("report.json")?];
+    let files = [open("frame.png")?, open("mesh.png")?, open("report.json")?];
+    let mesh = open("mesh.obj")?;
+    let mut obj = std::io::BufWriter::new(mesh.writer()?);
     let rtl = BLOCKS.map(|name| OutputFolder::open(&out.join("rtl").join(name)));
     let rtl = rtl.into_iter().collect::<std::result::Result<Vec<_>, _>>()?;
 
@@ -89,9 +91,9 @@ fn draw(arguments: &Arguments) -> Result {
         pipeline.follow(folder.path())?;
     }
     let recording = PipelineRecording::new(&pipeline, &out.join("pipeline.vcd"), 0..WAVEFORM)?;
-    let rendered = render(&scene, set, &mut pipeline, Some(recording), &meter);
+    let rendered = render(&scene, set, &mut pipeline, Some(recording), &mut obj, &meter);
     meter.finish();
-    let (mut rendered, recording) = match rendered {
+    let (rendered, recording) = match rendered {
         Ok(rendered) => rendered,
         Err(error) if error.is_mismatch() => {
             write_all(stderr(), &format!("mismatch: {error}\n"))?;
@@ -110,8 +112,9 @@ fn draw(arguments: &Arguments) -> Result {
         recording.finish()?;
     }
     let json = serde_json::to_string_pretty(&rendered.report)? + "\n";
-    let obj = std::mem::take(&mut rendered.obj);
-    let contents = [rendered.frame.png()?, rendered.edges.png()?, obj.into_bytes(), json.into_bytes()];
+    std::io::Write::flush(&mut obj)?;
+    mesh.commit()?;
+    let contents = [rendered.frame.png()?, rendered.edges.png()?, json.into_bytes()];
     for (mut file, content) in files.into_iter().zip(contents) {
         std::io::Write::write_all(&mut file, &content)?;
         file.commit()?;
