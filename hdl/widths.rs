@@ -36,6 +36,14 @@ impl WidthSet {
     pub const fn bank_words(&self) -> usize {
         1 << (self.texel_bits - 2)
     }
+    /// Words in the memory of a summed-area table.
+    pub const fn table_words(&self) -> usize {
+        1 << self.texel_bits
+    }
+    /// Bits of an area, twice those of a side.
+    pub const fn area_bits(&self) -> usize {
+        2 * self.side_width()
+    }
     /// Bits of an accumulator, W = V + g + 1.
     pub const fn accumulator_bits(&self) -> usize {
         self.vertex_bits + self.guard_bits + 1
@@ -74,6 +82,13 @@ macro_rules! width_sets {
                 pub type MipFetch = crate::mip_fetch::MipFetch<{ $m + 1 }, { $t - 2 }>;
                 /// Builder of summed-area tables.
                 pub type SatBuild = crate::sat_build::SatBuild<{ $m + 1 }, $m, $b>;
+                /// Fetch from summed-area tables, four cycles a result.
+                pub type SatFetch = crate::sat_fetch::SatFetch<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $t, $b>;
+                /// Fetch from summed-area tables, one result a cycle.
+                pub type SatFetchParallel =
+                    crate::sat_fetch_parallel::SatFetchParallel<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $t, $b>;
+                /// Mean of a rectangle.
+                pub type SatAverage = crate::sat_average::SatAverage<$b, { 2 * $m + 2 }, { 2 * $m + 4 }>;
                 /// Remesher.
                 pub type Remesher = crate::remesher::Remesher<
                     $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,

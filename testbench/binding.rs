@@ -66,6 +66,9 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::mip_build::MipBuildBinding,
     &crate::mip_fetch::MipFetchBinding,
     &crate::sat_build::SatBuildBinding,
+    &crate::sat_fetch::SatFetchBinding,
+    &crate::sat_fetch_parallel::SatFetchParallelBinding,
+    &crate::sat_average::SatAverageBinding,
 ];
 
 /// The block of a name.

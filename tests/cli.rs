@@ -13,7 +13,17 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 6] = ["vertex_adder", "strip_unit", "remesher", "mip_build", "mip_fetch", "sat_build"];
+const NAMES: [&str; 9] = [
+    "vertex_adder",
+    "strip_unit",
+    "remesher",
+    "mip_build",
+    "mip_fetch",
+    "sat_build",
+    "sat_fetch",
+    "sat_fetch_parallel",
+    "sat_average",
+];
 
 /// Exit code, stdout and stderr.
 fn finish(command: &mut Command) -> (Option<i32>, String, String) {
@@ -81,8 +91,8 @@ fn cli_bad_input_exits_with_2_and_says_what_would_be_right() {
     let stimulus = path(folder.path(), "stimulus.txt");
     let late = path(folder.path(), "late.vcd");
     fs::write(&stimulus, "# nothing\n 1 2 3\n").unwrap();
-    let block =
-        "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher, mip_build, mip_fetch, sat_build";
+    let block = "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher, mip_build, mip_fetch, sat_build, \
+         sat_fetch, sat_fetch_parallel, sat_average";
     let set = "there is no width set `huge`; --param takes default, position, small, deep";
     for (arguments, sentence) in [
         (vec!["check", "adder"], block),
@@ -523,6 +533,9 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("mip_build", "2000"),
         ("mip_fetch", "2000"),
         ("sat_build", "1000"),
+        ("sat_fetch", "2000"),
+        ("sat_fetch_parallel", "2000"),
+        ("sat_average", "500"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));

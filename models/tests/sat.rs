@@ -4,7 +4,7 @@
 use proptest::prelude::*;
 use relief_models::sat_average;
 use relief_models::sat_build::{SatBuild, Sum, golden};
-use relief_models::sat_fetch::{Border, Summed, exact, fetch};
+use relief_models::sat_fetch::{Border, Command, SatFetch, Summed, exact, fetch};
 
 const BORDERS: [Border; 2] = [Border::Clamp, Border::Slide];
 
@@ -107,6 +107,60 @@ fn sat_build_model_sends_the_table_and_says_what_it_refuses() {
     assert!(!twice.error());
     twice.size(2, 2);
     assert!(twice.error());
+}
+
+/// The unit behind the builder: the sums of the table, word by word, then every rectangle and everything it refuses.
+#[test]
+fn sat_fetch_model_reads_its_memory_and_says_what_it_refuses() {
+    let (map, bits) = ([9, 65_535, 3, 65_535, 65_535, 7], 17);
+    let table = golden(3, 2, &map, bits);
+    let load = |unit: &mut SatFetch, border| {
+        assert_eq!(unit.accept(&Command::Size { width: 3, height: 2, border }), None);
+        for (x, y) in (1..=2).flat_map(|y| (1..=3).map(move |x| (x, y))) {
+            let sum = table.at(x as usize, y as usize);
+            assert_eq!(unit.accept(&Command::Load { x, y, sum }), None);
+        }
+    };
+    for border in BORDERS {
+        let mut unit = SatFetch::new(6, bits);
+        load(&mut unit, border);
+        assert!(!unit.error());
+        let mut error = false;
+        for corner in (-2..=4).flat_map(|x| (-2..=3).map(move |y| (x, y))) {
+            for size in (0..=4).flat_map(|a| (0..=3).map(move |b| (a, b))) {
+                let want = fetch(&table, border, corner, size);
+                assert_eq!(unit.accept(&Command::Fetch { corner, size }), Some(want), "{corner:?} {size:?}");
+                error |= want.error;
+                assert_eq!(unit.error(), error, "{corner:?} {size:?}");
+            }
+        }
+    }
+    let whole = Command::Fetch { corner: (0, 0), size: (1, 1) };
+    let border = Border::Clamp;
+    for fault in [
+        Command::Size { width: 0, height: 2, border },
+        Command::Size { width: 3, height: 0, border },
+        Command::Load { x: 0, y: 1, sum: 1 },
+        Command::Load { x: 4, y: 1, sum: 1 },
+        Command::Load { x: 1, y: 0, sum: 1 },
+        Command::Load { x: 1, y: 3, sum: 1 },
+        Command::Load { x: -1, y: 2, sum: 1 },
+    ] {
+        let mut unit = SatFetch::new(6, bits);
+        load(&mut unit, border);
+        assert_eq!(unit.accept(&fault), None);
+        assert!(unit.error(), "{fault:?}");
+        let gone = matches!(fault, Command::Size { .. });
+        let want = if gone { Summed { sum: 0, area: 0, error: true } } else { fetch(&table, border, (0, 0), (1, 1)) };
+        assert_eq!(unit.accept(&whole), Some(want), "{fault:?}");
+    }
+    // A memory that ends within the last row: its entry counts 0.
+    let mut unit = SatFetch::new(5, bits);
+    load(&mut unit, border);
+    assert!(unit.error());
+    let lost = unit.accept(&Command::Fetch { corner: (2, 1), size: (1, 1) });
+    let sum = table.at(2, 1).wrapping_sub(table.at(2, 2) + table.at(3, 1)) & ((1 << bits) - 1);
+    assert_eq!(lost, Some(Summed { sum, area: 1, error: true }));
 }
 
 #[test]

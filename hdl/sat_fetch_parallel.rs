@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The sum of a rectangle from four copies of a summed-area table, one result a cycle (Crow 1984).
+//!
+//! The formula, the beats and the errors are those of [`crate::sat_fetch`]. Four parity banks would not do: the corners
+//! of a rectangle of even size have one parity.
+//!
+//! | port       | format      | meaning |   Latency 7, interval 1
+//! | in_kind    | 2 bits      | 0 size of a map, 1 load of an entry, 2 or 3 fetch   Golden: models::sat_fetch::SatFetch
+//! | in_width, in_height | unsigned M | of the map, at least one | size   Error 0
+//! | in_slide   | Bit         | rectangles slide into the map; otherwise they are cut | size
+//! | in_x, in_y | signed M + 2 | corner of the rectangle, or column and row of the entry, 1 ..= side | fetch, load
+//! | in_a, in_b | unsigned M  | columns and rows of the rectangle | fetch
+//! | in_sum     | B bits      | the entry | load
+//! | out_sum    | B bits      | exact unless the area is an error
+//! | out_area   | unsigned 2 M | texels really summed
+//! | error      | Bit         | sticky: a size of nothing (forgotten), a load of no entry or beyond the memory (not
+//! stored), a fetch before a size (0), of entries beyond the memory (they count 0), or of area * 65535 >= 2^B
+//!
+//! Example: in the map (1, 2; 3, 4) the rectangle at (1, 0), 2 x 2: cut 6 of 2 texels, slid 10 of 4.
+
+use crate::prelude::*;
+use crate::sat_fetch::SatCorners;
+
+/// Fetch from maps with sides of `M` bits, M <= 13, in four times 2^T sums of `B` bits, T <= 27; `X` = M + 2, `R` = 2 M.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> {
+    pub clock: Input<ClockReset>,
+    pub in_valid: Input<Bit>,
+    pub in_ready: Output<Bit>,
+    pub in_kind: Input<U<2>>,
+    pub in_x: Input<S<X>>,
+    pub in_y: Input<S<X>>,
+    pub in_a: Input<U<M>>,
+    pub in_b: Input<U<M>>,
+    pub in_sum: Input<U<B>>,
+    pub in_width: Input<U<M>>,
+    pub in_height: Input<U<M>>,
+    pub in_slide: Input<Bit>,
+    pub out_valid: Output<Bit>,
+    pub out_ready: Input<Bit>,
+    pub out_sum: Output<U<B>>,
+    pub out_area: Output<U<R>>,
+    pub error: Output<Bit>,
+    corners: SatCorners<M, X, R, T, B>,
+    s5_table_0: Ram<U<B>, T>,
+    s5_table_1: Ram<U<B>, T>,
+    s5_table_2: Ram<U<B>, T>,
+    s5_table_3: Ram<U<B>, T>,
+    s5_sends: Register<Bit>,
+    s5_zero: DataRegister<U<4>>,
+    s5_area: DataRegister<U<R>>,
+    s5_fails: Register<Bit>,
+    s6_sends: Register<Bit>,
+    s6_lower: DataRegister<U<B>>,
+    s6_upper: DataRegister<U<B>>,
+    s6_area: DataRegister<U<R>>,
+    s6_fails: Register<Bit>,
+    s7_sends: Register<Bit>,
+    s7_sum: DataRegister<U<B>>,
+    s7_area: DataRegister<U<R>>,
+    failed: Register<Bit>,
+    go: Wire<Bit>,
+    stores: Wire<Bit>,
+    entry_0: Wire<U<B>>,
+    entry_1: Wire<U<B>>,
+    entry_2: Wire<U<B>>,
+    entry_3: Wire<U<B>>,
+}
+
+impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> SatFetchParallel<M, X, R, T, B> {
+    /// Cycles from a fetch to its sum.
+    pub const LATENCY: usize = 7;
+}
+
+impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> Logic
+    for SatFetchParallel<M, X, R, T, B>
+{
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, corners, s5_table_0, s5_table_1, s5_table_2, s5_table_3);
+        dff_setup!(self, clock, s5_sends, s5_zero, s5_area, s5_fails, s6_sends, s6_lower, s6_upper, s6_area, s6_fails);
+        dff_setup!(self, clock, s7_sends, s7_sum, s7_area, failed);
+
+        // The whole pipeline moves, or stands.
+        self.go.next = !self.s7_sends.q.val() || self.out_ready.val();
+        self.in_ready.next = self.go.val();
+        self.out_valid.next = self.s7_sends.q.val();
+        self.out_sum.next = self.s7_sum.q.val();
+        self.out_area.next = self.s7_area.q.val();
+        self.error.next = self.failed.q.val();
+
+        // s1_beat to s4_words
+        self.corners.go.next = self.go.val();
+        self.corners.valid.next = self.in_valid.val();
+        self.corners.kind.next = self.in_kind.val();
+        self.corners.width.next = self.in_width.val();
+        self.corners.height.next = self.in_height.val();
+        self.corners.slide.next = self.in_slide.val();
+        self.corners.corner_x.next = self.in_x.val();
+        self.corners.corner_y.next = self.in_y.val();
+        self.corners.columns.next = self.in_a.val();
+        self.corners.rows.next = self.in_b.val();
+        self.corners.value.next = self.in_sum.val();
+
+        // s5_table: every copy takes every load.
+        self.stores.next = self.go.val() && self.corners.load.val();
+        self.s5_table_0.enable.next = self.go.val();
+        self.s5_table_0.read_address.next = self.corners.word_0.val();
+        self.s5_table_0.write_enable.next = self.stores.val();
+        self.s5_table_0.write_address.next = self.corners.word_0.val();
+        self.s5_table_0.write_data.next = self.corners.load_value.val();
+        self.s5_table_1.enable.next = self.go.val();
+        self.s5_table_1.read_address.next = self.corners.word_1.val();
+        self.s5_table_1.write_enable.next = self.stores.val();
+        self.s5_table_1.write_address.next = self.corners.word_0.val();
+        self.s5_table_1.write_data.next = self.corners.load_value.val();
+        self.s5_table_2.enable.next = self.go.val();
+        self.s5_table_2.read_address.next = self.corners.word_2.val();
+        self.s5_table_2.write_enable.next = self.stores.val();
+        self.s5_table_2.write_address.next = self.corners.word_0.val();
+        self.s5_table_2.write_data.next = self.corners.load_value.val();
+        self.s5_table_3.enable.next = self.go.val();
+        self.s5_table_3.read_address.next = self.corners.word_3.val();
+        self.s5_table_3.write_enable.next = self.stores.val();
+        self.s5_table_3.write_address.next = self.corners.word_0.val();
+        self.s5_table_3.write_data.next = self.corners.load_value.val();
+
+        // s6_lower, s6_upper, s7_sum: wrap at 2^B by intent.
+        self.entry_0.next = self.s5_table_0.read_data.val();
+        if self.s5_zero.q.val().get_bit(0) {
+            self.entry_0.next = 0.into();
+        }
+        self.entry_1.next = self.s5_table_1.read_data.val();
+        if self.s5_zero.q.val().get_bit(1) {
+            self.entry_1.next = 0.into();
+        }
+        self.entry_2.next = self.s5_table_2.read_data.val();
+        if self.s5_zero.q.val().get_bit(2) {
+            self.entry_2.next = 0.into();
+        }
+        self.entry_3.next = self.s5_table_3.read_data.val();
+        if self.s5_zero.q.val().get_bit(3) {
+            self.entry_3.next = 0.into();
+        }
+        if self.go.val() {
+            self.s5_sends.d.next = self.corners.fetch.val();
+            self.s5_zero.d.next = self.corners.zero.val();
+            self.s5_area.d.next = self.corners.area.val();
+            self.s5_fails.d.next = self.corners.fails.val();
+            self.s6_sends.d.next = self.s5_sends.q.val();
+            self.s6_lower.d.next = self.entry_0.val() - self.entry_1.val();
+            self.s6_upper.d.next = self.entry_2.val() - self.entry_3.val();
+            self.s6_area.d.next = self.s5_area.q.val();
+            self.s6_fails.d.next = self.s5_fails.q.val();
+            self.s7_sends.d.next = self.s6_sends.q.val();
+            self.s7_sum.d.next = self.s6_lower.q.val() - self.s6_upper.q.val();
+            self.s7_area.d.next = self.s6_area.q.val();
+            if self.s6_fails.q.val() {
+                self.failed.d.next = true;
+            }
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("sat_fetch_parallel")
+    }
+}
+
+ports! {
+    [const M: usize, const X: usize, const R: usize, const T: usize, const B: usize] SatFetchParallel<M, X, R, T, B> {
+        inputs: in_valid, in_kind, in_x, in_y, in_a, in_b, in_sum, in_width, in_height, in_slide, out_ready;
+        outputs: in_ready, out_valid, out_sum, out_area, error;
+        blocks: corners;
+        state: corners, s5_table_0, s5_table_1, s5_table_2, s5_table_3, s5_sends, s5_zero, s5_area, s5_fails, s6_sends, s6_lower, s6_upper, s6_area, s6_fails, s7_sends, s7_sum, s7_area, failed
+    }
+}
