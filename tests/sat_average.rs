@@ -21,7 +21,7 @@ fn sat_average_matches_golden_under_idle_and_stall() {
 }
 
 fn run(set: &WidthSet, beats: &[Beat], pattern: Pattern) -> (Counts, bool, u64) {
-    let mut scoreboard = Scoreboard::new(&SatAverageBinding, set, Box::new(beats.to_vec().into_iter()), pattern);
+    let mut scoreboard = Scoreboard::new(&SatAverageBinding, set, Box::new(beats.iter().cloned()), pattern);
     let (_, place) = scoreboard.layout().outputs.iter().find(|(port, _)| port.name == "error").unwrap().clone();
     let (mut error, mut rose) = (false, 0);
     let counts = scoreboard
@@ -56,7 +56,7 @@ fn sat_average_errors_are_sticky_and_come_with_their_beat() {
     for pattern in [Pattern::NONE, Pattern { idle: 30, stall: 50, seed: 2 }] {
         assert!(!run(&small::SET, &good, pattern).1);
         for fault in [vec![10, 0], vec![65_536, 1], vec![(1 << 32) - 1, 1], vec![(512 << 16) - 1, 512]] {
-            let beats = [&good[..], &[fault.clone()], &good[..]].concat();
+            let beats = [&good[..], std::slice::from_ref(&fault), &good[..]].concat();
             let (counts, error, rose) = run(&small::SET, &beats, pattern);
             assert_eq!((counts.checked, error, rose), (7, true, 1), "{fault:?} {pattern:?}");
         }
