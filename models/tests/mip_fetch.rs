@@ -2,6 +2,7 @@
 //! Properties of the golden fetch from pyramids.
 
 use proptest::prelude::*;
+use relief_models::map::{MEMORY_WORDS, read};
 use relief_models::mip_build::{Centring, Extremum, Pyramid, Wrap, golden, max_levels};
 use relief_models::mip_fetch::{Command, Filter, MipFetch, Placement, exact, fetch, fetch_checked};
 
@@ -62,6 +63,43 @@ fn mip_fetch_node_levels_bound_the_map_everywhere() {
         }
     }
     assert!(points > 300_000, "{points}");
+}
+
+/// The lemma on a real map, at every texel and between: node levels read bilinearly, and the largest of the four taps of
+/// cell levels, are nowhere below it.
+#[test]
+fn mip_fetch_levels_bound_a_real_map() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/maps/jacksboro.png");
+    let (map, _) = read(file.as_ref(), MEMORY_WORDS).unwrap();
+    let (width, height) = (map.width, map.height);
+    let nodes = pyramid(width, height, &map.samples, [Wrap::Clamp; 2], Extremum::Max);
+    let levels = nodes.levels.len();
+    let cells = golden(width, height, &map.samples, Centring::Cell, [Wrap::Clamp; 2], Extremum::Max, levels).unwrap();
+    assert!(levels >= 8, "{levels}");
+    let mut points = 0;
+    // Half a texel on each axis: exact at every level up to 11.
+    let (end_u, end_v) = (2 * width as u32 - 1, 2 * height as u32 - 1);
+    for (u, v) in (0..end_u).flat_map(|u| (0..end_v).map(move |v| (u << 15, v << 15))) {
+        let mut below = fetch(&nodes, 0, u, v, Filter::Bilinear);
+        for level in 1..levels {
+            let node = fetch(&nodes, level, u, v, Filter::Bilinear);
+            assert!(below <= node, "level {level} ({u:#x}, {v:#x}): {below} {node}");
+            below = node;
+        }
+        let middle = fetch(&nodes, 0, u, v, Filter::Bilinear);
+        for (level, samples) in cells.levels.iter().enumerate().skip(1) {
+            // The four cells round the point: centres lie half a cell beyond their first texel.
+            let taps = |at: u32, side: usize| {
+                let first = (i64::from(at >> 15) - (1 << level) + 1) >> (level + 1);
+                [first, first + 1].map(|index| index.clamp(0, side as i64 - 1) as usize)
+            };
+            let (columns, rows) = (taps(u, samples.width), taps(v, samples.height));
+            let most = rows.iter().flat_map(|&j| columns.map(|i| samples.at(i, j))).max().unwrap_or(0);
+            assert!(middle <= u32::from(most) << 8, "cells of level {level} ({u:#x}, {v:#x}): {middle} {most}");
+            points += 1;
+        }
+    }
+    assert!(points > 3_000_000, "{points}");
 }
 
 /// With the same points, a level of 2 x 2 maxima read bilinearly does fall below the map: why nodes are centred.
