@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The two walkers, turn by turn: which triangles they emit, and in which order.
+
+use super::{Lattice, Node, Steering};
+
+/// The ways a strip can grow: the new vertex takes the place of the left or of the right one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// The left vertex goes.
+    Left,
+    /// The right vertex goes.
+    Right,
+}
+
+/// A triangle of the map's lattice in the order of its strip; (left, right, new) turns from u to v.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triangle {
+    /// Left vertex, right vertex and new vertex, clamped to the map.
+    pub corners: [[u32; 2]; 3],
+    /// Which vertex the new one replaces in its strip.
+    pub side: Side,
+    /// Left and right vertex are not those that the walker's last triangle left.
+    pub start: bool,
+    /// The walker, 0 or 1; each makes strips of its own.
+    pub walker: u8,
+}
+
+/// What a draw has taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Triangles emitted.
+    pub triangles: u64,
+    /// Triangles visited: errors read, and leaves without a midpoint.
+    pub visits: u64,
+    /// Strips.
+    pub strips: u64,
+    /// Turns, of which a walker without work lets pass its own: the cycles of the hardware's walk.
+    pub turns: u64,
+    /// The deepest stack.
+    pub deepest: usize,
+}
+
+/// A node on its way along the curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Entry {
+    node: Node,
+    /// The curve enters over the hypotenuse, rather than over the leg at its first end.
+    enters_long: bool,
+    /// It leaves over the hypotenuse, rather than over the leg at its last end.
+    leaves_long: bool,
+    /// Something before it was left out.
+    torn: bool,
+}
+
+/// Entries that a stack can hold: two a level, and the root.
+pub const STACK: usize = 32;
+
+#[derive(Clone, Debug)]
+struct Walker {
+    visiting: Option<Entry>,
+    /// A ring: entries leave at the top, and at the bottom for the other walker.
+    stack: [Entry; STACK],
+    bottom: usize,
+    length: usize,
+    /// The next triangle begins a strip.
+    torn: bool,
+}
+
+impl Walker {
+    fn new(root: Node) -> Self {
+        let root = Entry { node: root, enters_long: false, leaves_long: false, torn: true };
+        Self { visiting: None, stack: [root; STACK], bottom: 0, length: 1, torn: true }
+    }
+    #[inline]
+    fn push(&mut self, entry: Entry) {
+        self.stack[(self.bottom + self.length) % STACK] = entry;
+        self.length += 1;
+    }
+    #[inline]
+    fn pop(&mut self) -> Option<Entry> {
+        self.length = self.length.checked_sub(1)?;
+        let entry = self.stack[(self.bottom + self.length) % STACK];
+        self.torn |= entry.torn;
+        Some(entry)
+    }
+    fn pop_bottom(&mut self) -> Entry {
+        let entry = self.stack[self.bottom];
+        self.bottom = (self.bottom + 1) % STACK;
+        self.length -= 1;
+        entry
+    }
+}
+
+/// Walks the map and hands its triangles to `sink`, in the order of the hardware.
+pub fn golden<S: Steering>(lattice: &Lattice, steering: &S, sink: &mut impl FnMut(&Triangle)) -> Counts {
+    let mut walkers = lattice.roots().map(Walker::new);
+    let mut counts = Counts { deepest: 1, ..Counts::default() };
+    let mut turn = 0;
+    while walkers.iter().any(|walker| walker.visiting.is_some() || walker.length > 0) {
+        let [first, second] = &mut walkers;
+        let (walker, other) = if turn == 0 { (first, second) } else { (second, first) };
+        walker.visiting = match walker.visiting {
+            Some(entry) if splits(lattice, steering, entry.node) => walker.split(lattice, entry),
+            Some(entry) => {
+                let triangle = walker.leaf(lattice, entry, turn);
+                counts.triangles += 1;
+                counts.strips += u64::from(triangle.start);
+                sink(&triangle);
+                walker.pop()
+            }
+            None => walker.pop(),
+        };
+        counts.deepest = counts.deepest.max(walker.length);
+        counts.visits += u64::from(walker.visiting.is_some());
+        if walker.visiting.is_none() && other.length > 1 {
+            walker.push(Entry { torn: true, ..other.pop_bottom() });
+        }
+        counts.turns += 1;
+        turn ^= 1;
+    }
+    counts
+}
+
+#[inline]
+fn splits<S: Steering>(lattice: &Lattice, steering: &S, node: Node) -> bool {
+    node.midpoint().is_some_and(|m| steering.splits(lattice, node, m))
+}
+
+impl Walker {
+    /// Goes on into the half at the entry, and leaves the other one for later. A dead half is left out.
+    #[inline]
+    fn split(&mut self, lattice: &Lattice, entry: Entry) -> Option<Entry> {
+        let [at_a, at_b] = entry.node.halves();
+        let (first, second) = if entry.node.reversed() { (at_b, at_a) } else { (at_a, at_b) };
+        let first = Entry { node: first, enters_long: !entry.enters_long, leaves_long: false, torn: false };
+        let second = Entry { node: second, enters_long: false, leaves_long: !entry.leaves_long, torn: false };
+        match (lattice.is_dead(first.node), lattice.is_dead(second.node)) {
+            (false, false) => {
+                self.push(second);
+                Some(first)
+            }
+            (false, true) => {
+                if self.length > 0 {
+                    self.stack[(self.bottom + self.length - 1) % STACK].torn = true;
+                }
+                Some(first)
+            }
+            (true, false) => {
+                self.torn = true;
+                Some(second)
+            }
+            (true, true) => {
+                self.torn = true;
+                self.pop()
+            }
+        }
+    }
+
+    /// The triangle of a leaf: left and right are the ends of the edge it is entered by.
+    #[inline]
+    fn leaf(&mut self, lattice: &Lattice, entry: Entry, walker: u8) -> Triangle {
+        let [a, b, c] = entry.node.corners().map(|corner| lattice.clamp(corner));
+        let start = std::mem::replace(&mut self.torn, false);
+        let long = entry.enters_long && !start;
+        // From a to b, or from b to a; over the hypotenuse the apex is new, over the leg the last end. What goes is the
+        // first end, or the apex where the hypotenuse is the way out.
+        let (corners, side) = match (entry.node.reversed(), long) {
+            (false, false) => ([c, a, b], if entry.leaves_long { Side::Left } else { Side::Right }),
+            (false, true) => ([a, b, c], Side::Left),
+            (true, false) => ([b, c, a], if entry.leaves_long { Side::Right } else { Side::Left }),
+            (true, true) => ([a, b, c], Side::Right),
+        };
+        Triangle { corners, side, start, walker }
+    }
+}
