@@ -25,6 +25,10 @@ pub struct WidthSet {
     pub texel_bits: usize,
     /// Bits of a sum in a summed-area table, B.
     pub sum_bits: usize,
+    /// The lattice of the bisector has up to 2^K steps a side: maps of up to 2^K + 1 columns and rows.
+    pub lattice_bits: usize,
+    /// Bits of an error at a lattice vertex, E; one is enough for a split map.
+    pub error_bits: usize,
 }
 
 impl WidthSet {
@@ -55,7 +59,7 @@ impl WidthSet {
 }
 
 macro_rules! width_sets {
-    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal, sides $m:literal, texels $t:literal, B $b:literal;)*) => {
+    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal, sides $m:literal, texels $t:literal, B $b:literal, lattice $lattice:literal, E $e:literal;)*) => {
         $(
             #[doc = $summary]
             pub mod $name {
@@ -71,6 +75,8 @@ macro_rules! width_sets {
                     side_bits: $m,
                     texel_bits: $t,
                     sum_bits: $b,
+                    lattice_bits: $lattice,
+                    error_bits: $e,
                 };
                 /// Vertex adder of the accumulators.
                 pub type VertexAdder = crate::vertex_adder::VertexAdder<$l, { $v + $g + 1 }>;
@@ -87,6 +93,9 @@ macro_rules! width_sets {
                 /// Fetch from summed-area tables, one result a cycle.
                 pub type SatFetchParallel =
                     crate::sat_fetch_parallel::SatFetchParallel<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $t, $b>;
+                /// Bisector.
+                pub type Bisector =
+                    crate::bisector::Bisector<{ $lattice + 1 }, { $lattice + 2 }, { 2 * $lattice + 1 }, $e>;
                 /// Mean of a rectangle.
                 pub type SatAverage = crate::sat_average::SatAverage<$b, { 2 * $m + 2 }, { 2 * $m + 4 }>;
                 /// Remesher.
@@ -118,11 +127,11 @@ macro_rules! width_sets {
 
 width_sets! { $;
     default "default" "Nine components of 32 bits: position, normal, texture coordinates, 1/w; viewports to 4,096":
-        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 19, B 40;
+        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 19, B 40, lattice 9, E 16;
     position "position" "Three components: the remesher alone, on geometry":
-        L 3, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40;
+        L 3, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40, lattice 9, E 1;
     small "small" "Nine components of 24 bits for 640 x 480":
-        L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, B 32;
+        L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, B 32, lattice 8, E 8;
     deep "deep" "Thirteen components, depth ranges to 2^15 voxels":
-        L 13, V 32, g 16, N 17, depth 4096, K 13, sides 12, texels 20, B 40;
+        L 13, V 32, g 16, N 17, depth 4096, K 13, sides 12, texels 20, B 40, lattice 12, E 16;
 }

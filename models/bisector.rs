@@ -5,7 +5,8 @@
 //! visit(T):  T has a lattice midpoint m, and error[m] > bound(m):  visit its half at the entry, then the other one
 //!            otherwise:                                            emit T
 //! bound(m) = base + ((slope * max(0, D(m) - R)) >> 8)      D(m) = max(|u - eye_u|, |v - eye_v|) in half steps
-//!                                                          R = 2^(level + 1), 3 2^level when the hypotenuse is a diagonal
+//!                                                          R = 2^(level + 1), 3 2^level when the hypotenuse is a diagonal;
+//!                                                          the roots' bound is the base
 //! ```
 //!
 //! The error of a split map is one bit, 1 or 0, under a bound of 0. Saturated errors (at least those of the midpoints of
@@ -28,10 +29,12 @@
 
 mod lattice;
 mod steering;
+mod unit;
 mod walkers;
 
 pub use lattice::{Lattice, MAX_SIDE, Node};
 pub use steering::{Bound, Errors, SplitMap, Steering};
+pub use unit::{Bisector, Command, Output, Vertex};
 pub use walkers::{Counts, STACK, Side, Triangle, golden};
 
 use glam::DVec2;

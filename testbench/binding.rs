@@ -69,6 +69,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::sat_fetch::SatFetchBinding,
     &crate::sat_fetch_parallel::SatFetchParallelBinding,
     &crate::sat_average::SatAverageBinding,
+    &crate::bisector::BisectorBinding,
 ];
 
 /// The block of a name.

@@ -18,6 +18,7 @@
 //! | `<block>` | the binding of that block |
 
 pub mod binding;
+pub mod bisector;
 pub mod check;
 pub mod cosim;
 pub mod device;

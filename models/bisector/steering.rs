@@ -78,9 +78,12 @@ impl Bound {
     pub const fn constant(base: u16) -> Self {
         Self { base, slope: 0, eye: [0; 2] }
     }
-    /// The bound that a triangle has to keep, in the units of the errors.
+    /// The bound that a triangle has to keep, in the units of the errors. The roots reach everything: theirs is `base`.
     #[inline]
     pub fn at(&self, lattice: &Lattice, node: Node) -> u32 {
+        if node.level == lattice.levels && !node.reversed() {
+            return self.base.into();
+        }
         let reach = if node.reversed() { 2 << node.level } else { 3 << node.level };
         let from_eye = |at: u32, side: u32, eye: u16| at.min(2 * (side - 1)).abs_diff(eye.into());
         let [u, v] = [from_eye(node.u, lattice.width, self.eye[0]), from_eye(node.v, lattice.height, self.eye[1])];

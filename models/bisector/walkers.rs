@@ -48,8 +48,6 @@ struct Entry {
     enters_long: bool,
     /// It leaves over the hypotenuse, rather than over the leg at its last end.
     leaves_long: bool,
-    /// Something before it was left out.
-    torn: bool,
 }
 
 /// Entries that a stack can hold: two a level, and the root.
@@ -62,14 +60,14 @@ struct Walker {
     stack: [Entry; STACK],
     bottom: usize,
     length: usize,
-    /// The next triangle begins a strip.
-    torn: bool,
+    /// Left and right vertex that the last triangle left.
+    rung: Option<[[u32; 2]; 2]>,
 }
 
 impl Walker {
     fn new(root: Node) -> Self {
-        let root = Entry { node: root, enters_long: false, leaves_long: false, torn: true };
-        Self { visiting: None, stack: [root; STACK], bottom: 0, length: 1, torn: true }
+        let root = Entry { node: root, enters_long: false, leaves_long: false };
+        Self { visiting: None, stack: [root; STACK], bottom: 0, length: 1, rung: None }
     }
     #[inline]
     fn push(&mut self, entry: Entry) {
@@ -79,9 +77,7 @@ impl Walker {
     #[inline]
     fn pop(&mut self) -> Option<Entry> {
         self.length = self.length.checked_sub(1)?;
-        let entry = self.stack[(self.bottom + self.length) % STACK];
-        self.torn |= entry.torn;
-        Some(entry)
+        Some(self.stack[(self.bottom + self.length) % STACK])
     }
     fn pop_bottom(&mut self) -> Entry {
         let entry = self.stack[self.bottom];
@@ -113,7 +109,7 @@ pub fn golden<S: Steering>(lattice: &Lattice, steering: &S, sink: &mut impl FnMu
         counts.deepest = counts.deepest.max(walker.length);
         counts.visits += u64::from(walker.visiting.is_some());
         if walker.visiting.is_none() && other.length > 1 {
-            walker.push(Entry { torn: true, ..other.pop_bottom() });
+            walker.push(other.pop_bottom());
         }
         counts.turns += 1;
         turn ^= 1;
@@ -132,44 +128,33 @@ impl Walker {
     fn split(&mut self, lattice: &Lattice, entry: Entry) -> Option<Entry> {
         let [at_a, at_b] = entry.node.halves();
         let (first, second) = if entry.node.reversed() { (at_b, at_a) } else { (at_a, at_b) };
-        let first = Entry { node: first, enters_long: !entry.enters_long, leaves_long: false, torn: false };
-        let second = Entry { node: second, enters_long: false, leaves_long: !entry.leaves_long, torn: false };
+        let first = Entry { node: first, enters_long: !entry.enters_long, leaves_long: false };
+        let second = Entry { node: second, enters_long: false, leaves_long: !entry.leaves_long };
         match (lattice.is_dead(first.node), lattice.is_dead(second.node)) {
             (false, false) => {
                 self.push(second);
                 Some(first)
             }
-            (false, true) => {
-                if self.length > 0 {
-                    self.stack[(self.bottom + self.length - 1) % STACK].torn = true;
-                }
-                Some(first)
-            }
-            (true, false) => {
-                self.torn = true;
-                Some(second)
-            }
-            (true, true) => {
-                self.torn = true;
-                self.pop()
-            }
+            (false, true) => Some(first),
+            (true, false) => Some(second),
+            (true, true) => self.pop(),
         }
     }
 
-    /// The triangle of a leaf: left and right are the ends of the edge it is entered by.
+    /// The triangle of a leaf. From a to b, or from b to a; over the hypotenuse the apex is new, over the leg the last end.
+    /// What goes is the first end, or the apex where the hypotenuse is the way out.
     #[inline]
     fn leaf(&mut self, lattice: &Lattice, entry: Entry, walker: u8) -> Triangle {
         let [a, b, c] = entry.node.corners().map(|corner| lattice.clamp(corner));
-        let start = std::mem::replace(&mut self.torn, false);
+        let reversed = entry.node.reversed();
+        let over_leg = if reversed { [b, c, a] } else { [c, a, b] };
+        let entered = if entry.enters_long { [a, b, c] } else { over_leg };
+        let start = self.rung != Some([entered[0], entered[1]]);
         let long = entry.enters_long && !start;
-        // From a to b, or from b to a; over the hypotenuse the apex is new, over the leg the last end. What goes is the
-        // first end, or the apex where the hypotenuse is the way out.
-        let (corners, side) = match (entry.node.reversed(), long) {
-            (false, false) => ([c, a, b], if entry.leaves_long { Side::Left } else { Side::Right }),
-            (false, true) => ([a, b, c], Side::Left),
-            (true, false) => ([b, c, a], if entry.leaves_long { Side::Right } else { Side::Left }),
-            (true, true) => ([a, b, c], Side::Right),
-        };
+        let corners = if long { entered } else { over_leg };
+        let side = if (long || entry.leaves_long) != reversed { Side::Left } else { Side::Right };
+        let [left, right, new] = corners;
+        self.rung = Some(if side == Side::Left { [new, right] } else { [left, new] });
         Triangle { corners, side, start, walker }
     }
 }
