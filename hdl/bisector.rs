@@ -3,7 +3,7 @@
 //!
 //! A triangle with midpoint m is split where error[m] > base + ((slope * excess) >> 8) (models::bisector)
 //!
-//! | port       | format      | meaning |   About two cycles a triangle, 8 before the first
+//! | port       | format      | meaning |   About two cycles a triangle, 11 before the first
 //! | in_kind    | 2 bits      | 0 size, 1 sample, 2 draw   Golden: models::bisector::golden   Error 0
 //! | in_width, in_height | unsigned C | 2 ..= 2^K + 1 | size
 //! | in_levels  | unsigned 4  | lattice of N = 2^levels >= the larger side - 1; at most K | size
@@ -174,7 +174,7 @@ impl<const C: usize, const H: usize, const A: usize, const E: usize> Default for
 
 impl<const C: usize, const H: usize, const A: usize, const E: usize> Bisector<C, H, A, E> {
     /// Cycles from a draw to its first triangle.
-    pub const LATENCY: usize = 10;
+    pub const LATENCY: usize = 11;
 }
 
 impl<const C: usize, const H: usize, const A: usize, const E: usize> Logic for Bisector<C, H, A, E> {

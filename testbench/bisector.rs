@@ -234,7 +234,7 @@ impl Binding for BisectorBinding {
         "tessellates a height map by bisection, under a bound"
     }
     fn latency(&self) -> &'static str {
-        "10"
+        "11"
     }
     fn interval(&self) -> &'static str {
         "2 a triangle"

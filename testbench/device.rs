@@ -15,6 +15,8 @@ pub trait Device {
     fn settle(&mut self, inputs: &[u64], outputs: &mut [u64]);
     /// Rising edge.
     fn edge(&mut self);
+    /// Holds the reset for so many cycles.
+    fn reset(&mut self, cycles: usize);
     /// Cycles since the reset.
     fn cycle(&self) -> u64;
     /// The block, for probes and the Verilog back-end.
@@ -35,6 +37,9 @@ impl<B: Ports> Device for Stepped<B> {
     }
     fn edge(&mut self) {
         Stepped::edge(self);
+    }
+    fn reset(&mut self, cycles: usize) {
+        Stepped::reset(self, cycles);
     }
     fn cycle(&self) -> u64 {
         Stepped::cycle(self)

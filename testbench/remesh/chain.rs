@@ -61,7 +61,8 @@ pub struct TrianglePorts {
 }
 
 impl TrianglePorts {
-    pub(crate) fn of(layout: &Layout, set: &WidthSet) -> Self {
+    /// The places in the outputs of a strip unit of a width set.
+    pub fn of(layout: &Layout, set: &WidthSet) -> Self {
         let find = |name: &str| layout.output(name);
         Self {
             valid: layout.out_valid,
