@@ -2,19 +2,22 @@
 //! Triangle meshes as the remesher leaves them: readers, and the checker that proves a tiling.
 //!
 //! A mesh is a set of triangles whose vertices are identified by **exact coordinates**: two computations of one vertex
-//! that differ in a bit are two vertices, and show as open edges. [`read`] takes three kinds of file:
+//! that differ in a bit are two vertices, and show as open edges. [`read`] takes four kinds of file:
 //!
 //! | file | numbers | base triangles |
 //! |------|---------|----------------|
 //! | text ([`Format::Text`]) | integers over `scale`; decimals in `b` lines | its own `b` lines |
 //! | Wavefront OBJ           | decimals, taken as they are written           | faces of a second file; groups `base_<I>` |
 //! | PLY, ascii or binary    | decimals, or binary floats taken bit by bit   | the same; face property `base` |
+//! | GLB, binary glTF 2.0    | binary floats taken bit by bit, then placed by the nodes | faces of a second file, if it has one |
 //!
 //! ```text
 //! scale 4096                                    # emitted coordinates are integers over 4096
 //! b 0  0 0 0  2 0 0  0 2.5 0                    # base triangle 0, corners in winding order, in whole units
 //! t 0  0 0 0  8192 0 0  0 10240 0               # an emitted triangle of base triangle 0
 //! ```
+//!
+//! A [`TriangleMesh`] is the same file in doubles, to be measured or written.
 //!
 //! [`check`] reports what it finds as a [`Report`]. All decisions are exact: see `mesh/exact.rs` and `mesh/points.rs`.
 //!
@@ -41,17 +44,24 @@ mod edges;
 mod exact;
 pub(crate) mod fields;
 mod points;
+mod read_glb;
 pub(crate) mod read_obj;
 mod read_ply;
 mod read_text;
 mod report;
 mod rims;
 mod t_vertices;
+mod triangle_mesh;
 mod triangles;
+mod write;
 
 pub use build::Builder;
 pub use check::{CheckOptions, Tolerance, check};
 pub use report::{Failure, FailureKind, Report};
+pub use triangle_mesh::TriangleMesh;
+pub use write::WriteError;
+
+pub(crate) use build::Interner;
 
 use build::Indexed;
 use points::Points;
@@ -138,14 +148,17 @@ pub enum Format {
     Obj,
     /// PLY, ascii or binary.
     Ply,
+    /// Binary glTF 2.0.
+    Glb,
 }
 
 impl Format {
-    /// The format that a file's extension stands for: `.obj`, `.ply`, and text for everything else.
+    /// The format that a file's extension stands for: `.obj`, `.ply`, `.glb`, and text for everything else.
     pub fn of(path: &Path) -> Format {
         match path.extension().and_then(|extension| extension.to_str()).map(str::to_ascii_lowercase).as_deref() {
             Some("obj") => Format::Obj,
             Some("ply") => Format::Ply,
+            Some("glb") => Format::Glb,
             _ => Format::Text,
         }
     }
@@ -176,7 +189,7 @@ pub struct Source<'a> {
     pub bytes: &'a mut dyn Read,
 }
 
-/// Reads the mesh in the file `path`, with the base triangles in the file `base` for OBJ and PLY.
+/// Reads the mesh in the file `path`, with the base triangles in the file `base` for OBJ, PLY and GLB.
 pub fn read(path: &Path, base: Option<&Path>, progress: &dyn Progress) -> Result<Mesh, InputError> {
     let names = (path.display().to_string(), base.map(|base| base.display().to_string()).unwrap_or_default());
     let (mut file, size) = open(path, &names.0)?;
@@ -213,15 +226,27 @@ pub fn read_from(mesh: Source<'_>, base: Option<Source<'_>>, progress: &dyn Prog
         };
     }
     let (mesh_name, base_name) = (mesh.name, base.as_ref().map_or("", |base| base.name));
-    let indexed = |source: Source<'_>| match source.format {
-        Format::Obj => read_obj::read(source, progress),
-        Format::Ply => read_ply::read(source, progress),
-        Format::Text => {
-            let message = "holds base triangles for an OBJ or PLY mesh, and has to be .obj or .ply too";
-            Err(InputError::new(source.name, Place::File, message))
+    let indexed = |source: Source<'_>| {
+        if source.format == Format::Text {
+            let message = "holds base triangles for an OBJ, PLY or GLB mesh, and has to be .obj, .ply or .glb too";
+            return Err(InputError::new(source.name, Place::File, message));
         }
+        indexed(source, progress)
     };
     // The base is the smaller file: its mistakes are told before the large one is read.
     let base: Option<Indexed> = base.map(indexed).transpose()?;
     build::assemble(indexed(mesh)?, mesh_name, base, base_name, progress)
+}
+
+/// Vertices and triangles of a file that is no text.
+fn indexed(source: Source<'_>, progress: &dyn Progress) -> Result<Indexed, InputError> {
+    match source.format {
+        Format::Obj => read_obj::read(source, progress),
+        Format::Ply => read_ply::read(source, progress),
+        Format::Glb => read_glb::read(source, progress),
+        Format::Text => {
+            let message = "is neither .obj, .ply nor .glb; a mesh in one of these formats is expected";
+            Err(InputError::new(source.name, Place::File, message))
+        }
+    }
 }

@@ -14,6 +14,7 @@ pub mod blocks;
 pub mod check;
 pub mod check_mesh;
 pub mod emit;
+pub mod measure;
 mod output;
 pub mod remesh;
 pub mod run;

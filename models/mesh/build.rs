@@ -16,19 +16,19 @@ const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
 /// Gives equal keys equal numbers, counted from 0 in the order of their first appearance.
 ///
 /// The table holds numbers only and compares through `keys`: 5 bytes a slot instead of 32.
-pub(super) struct Interner<K> {
-    pub(super) keys: Vec<K>,
+pub(crate) struct Interner<K> {
+    pub(crate) keys: Vec<K>,
     table: HashTable<u32>,
 }
 
 impl<K: Hash + Eq + Copy> Interner<K> {
-    pub(super) fn new() -> Interner<K> {
+    pub(crate) fn new() -> Interner<K> {
         Interner { keys: Vec::new(), table: HashTable::new() }
     }
 
     /// The number of `key`; `None` once 2^32 - 1 keys are in use.
     #[inline]
-    pub(super) fn intern(&mut self, key: K) -> Option<u32> {
+    pub(crate) fn intern(&mut self, key: K) -> Option<u32> {
         let Interner { keys, table } = self;
         let entry = table.entry(hash(&key), |found| keys[*found as usize] == key, |moved| hash(&keys[*moved as usize]));
         match entry {

@@ -197,6 +197,11 @@ pub(super) struct Scaled {
 
 /// Decimal exponents reach as far as those of a double.
 const DECIMAL_EXPONENTS: std::ops::RangeInclusive<i64> = -340..=300;
+/// Those that a double holds exactly.
+const POWERS_OF_TEN: [f64; 23] = [
+    1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20,
+    1e21, 1e22,
+];
 /// Significant digits that surely fit into the mantissa.
 const DIGITS: u32 = 18;
 
@@ -317,13 +322,18 @@ impl Scaled {
         })
     }
 
-    /// The nearest double, or one of its neighbours.
+    /// The nearest double.
     pub(super) fn approximate(self, radix: Radix) -> f64 {
         match radix {
             // In two steps: 2^-1074 is a double, 2^-1100 times a large mantissa may be one too.
             Radix::Two => {
                 let half = i32::from(self.exponent) / 2;
                 self.mantissa as f64 * f64::powi(2.0, half) * f64::powi(2.0, i32::from(self.exponent) - half)
+            }
+            // Integers to 2^53 and powers of ten to 10^22 are doubles, so one operation rounds, and rightly.
+            Radix::Ten if self.mantissa.unsigned_abs() <= 1 << 53 && self.exponent.unsigned_abs() <= 22 => {
+                let power = POWERS_OF_TEN[usize::from(self.exponent.unsigned_abs())];
+                if self.exponent < 0 { self.mantissa as f64 / power } else { self.mantissa as f64 * power }
             }
             Radix::Ten => format!("{}e{}", self.mantissa, self.exponent).parse().unwrap_or(0.0),
         }

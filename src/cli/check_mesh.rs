@@ -10,11 +10,11 @@ use super::{Meter, Outcome, Result, write_all};
 
 /// Check that a mesh is watertight and tiles its base triangles
 ///
-/// Reads the text format of `scale`, `b` and `t` lines, Wavefront OBJ (.obj) and PLY (.ply). Vertices are identified by
-/// exact coordinates. A mesh without base triangles may be open unless --closed is given: its open edges are counted.
+/// Reads the text format of `scale`, `b` and `t` lines, Wavefront OBJ (.obj), PLY (.ply) and binary glTF (.glb). Vertices are
+/// identified by exact coordinates. A mesh without base triangles may be open unless --closed is given: its open edges are counted.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The mesh: .obj, .ply, and text for every other extension
+    /// The mesh: .obj, .ply, .glb, and text for every other extension
     file: PathBuf,
     /// Base triangles of an OBJ or PLY mesh, whose faces say in groups `base_<I>` or a property `base` whose they are
     #[arg(long, value_name = "FILE")]

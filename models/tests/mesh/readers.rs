@@ -273,7 +273,10 @@ fn mesh_base_mistakes_are_told_with_their_place() {
     let error = parse(Format::Text, text, Some((Format::Obj, base))).unwrap_err();
     assert_eq!(error.to_string(), "mesh: carries its own base triangles (`b` lines); leave base away");
     let error = parse(Format::Obj, vertices.as_bytes(), Some((Format::Text, text))).unwrap_err();
-    assert_eq!(error.to_string(), "base: holds base triangles for an OBJ or PLY mesh, and has to be .obj or .ply too");
+    assert_eq!(
+        error.to_string(),
+        "base: holds base triangles for an OBJ, PLY or GLB mesh, and has to be .obj, .ply or .glb too"
+    );
 }
 
 #[test]
