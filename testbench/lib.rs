@@ -23,6 +23,7 @@ pub mod check;
 pub mod cosim;
 pub mod device;
 pub mod frame;
+pub mod method;
 pub mod mip_build;
 pub mod mip_fetch;
 pub mod output;
