@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Prepares a map for the bisector: split maps whose bound holds, heights fitted to it, saturated errors.
+
+mod fit;
+mod surface;
+mod unfitted;
+
+pub use surface::{Excess, Ground};
+pub use unfitted::unfitted;
+pub use fit::*;
+
+/// A bound on the error, in map units: a fraction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tolerance {
+    /// Numerator.
+    pub over: u32,
+    /// Denominator, 1 to 10,000.
+    pub under: u32,
+}
