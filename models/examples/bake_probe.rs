@@ -15,7 +15,7 @@ fn main() {
         let c = golden(&lattice, &split, &mut |_| ());
         println!("unfitted mirrored {mirrored} {} in {:?}", c.triangles, dt);
         let n = |i: usize, d: u32| args.get(i).map_or(d, |t| t.parse().unwrap());
-        let f = fitted(&ground, tolerance, Effort { removals: n(3, 6), rounds: n(4, 10) });
+        let f = fitted(&ground, tolerance, n(3, 8), &());
         let mut worst = Excess::NONE;
         let mut wait = lattice.roots().to_vec();
         while let Some(node) = wait.pop() {

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicI32, AtomicU8, Ordering::Relaxed};
 
 use super::Fitted;
 use super::shapes::Shapes;
-use crate::bake::{Ground, Tolerance};
+use crate::bake::{Excess, Ground, Tolerance};
 use crate::bisector::{Lattice, Node, SplitMap, golden};
 
 const SPLIT: u8 = 1;
@@ -22,7 +22,7 @@ pub(super) struct Fabric<'a> {
     flags: Vec<AtomicU8>,
     heights: Vec<AtomicI32>,
     /// Lattice coordinates that stand on the last column, and on the last row, and can be corners of live triangles.
-    rims: [Vec<u32>; 2],
+    pub rims: [Vec<u32>; 2],
 }
 
 /// A triangle with the numbers of the samples at its corners.
@@ -30,26 +30,6 @@ pub(super) struct Fabric<'a> {
 pub(super) struct Leaf {
     pub node: Node,
     pub at: [u32; 3],
-}
-
-/// A part of the map, borders included.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Window {
-    pub low: [i32; 2],
-    pub high: [i32; 2],
-}
-
-impl Window {
-    pub const ALL: Window = Window { low: [i32::MIN; 2], high: [i32::MAX; 2] };
-    /// Whether a place is inside, and not on the border.
-    #[inline]
-    fn is_inside(&self, at: [i32; 2]) -> bool {
-        (0..2).all(|axis| self.low[axis] < at[axis] && at[axis] < self.high[axis])
-    }
-    #[inline]
-    fn holds(&self, at: [i32; 2]) -> bool {
-        (0..2).all(|axis| self.low[axis] <= at[axis] && at[axis] <= self.high[axis])
-    }
 }
 
 impl<'a> Fabric<'a> {
@@ -133,116 +113,13 @@ impl<'a> Fabric<'a> {
     pub fn live_at(&self, vertex: [u32; 2]) -> impl Iterator<Item = Node> + use<'_, 'a> {
         self.lattice().nodes_at(vertex).filter(|&node| !self.lattice().is_dead(node))
     }
-    /// Whether a triangle lies in a window.
     #[inline]
-    pub fn is_in(&self, at: &[u32; 3], window: &Window) -> bool {
-        at.iter().all(|&at| window.holds(self.place(at).map(|at| at as i32)))
-    }
-    /// Whether a sample is inside a window and not on its border.
-    #[inline]
-    pub fn is_inside(&self, at: u32, window: &Window) -> bool {
-        window.is_inside(self.place(at).map(|at| at as i32))
-    }
-    #[inline]
-    pub fn excess(&self, node: Node) -> crate::bake::Excess {
+    pub fn excess(&self, node: Node) -> Excess {
         self.ground.excess(node, |index| self.height(index as u32))
     }
     #[inline]
     pub fn keeps(&self, node: Node) -> bool {
         self.excess(node).is_within(self.tolerance)
-    }
-
-    /// Appends the leaves that have a sample as corner.
-    pub fn star(&self, at: u32, leaves: &mut Vec<Leaf>) {
-        let [x, y] = self.place(at);
-        let on_rim = [x + 1 == self.lattice().width, y + 1 == self.lattice().height];
-        let (xs, ys) = ([x], [y]);
-        let us = if on_rim[0] { &self.rims[0][..] } else { &xs };
-        let vs = if on_rim[1] { &self.rims[1][..] } else { &ys };
-        for &v in vs {
-            for &u in us {
-                self.star_of_vertex([u, v], leaves);
-            }
-        }
-    }
-    /// Whether another lattice vertex on the same sample is a corner of a triangle.
-    pub fn is_shared(&self, vertex: [u32; 2]) -> bool {
-        let on_rim = vertex[0] + 1 >= self.lattice().width || vertex[1] + 1 >= self.lattice().height;
-        let at = self.ground.sample_index(vertex) as u32;
-        let mut leaves = Vec::new();
-        if on_rim {
-            self.star(at, &mut leaves);
-        }
-        leaves.iter().any(|leaf| {
-            let corners = leaf.node.corners();
-            (0..3).any(|corner| leaf.at[corner] == at && corners[corner] != vertex)
-        })
-    }
-    fn star_of_vertex(&self, vertex: [u32; 2], leaves: &mut Vec<Leaf>) {
-        let side = self.lattice().side();
-        if vertex.iter().all(|at| at.is_multiple_of(side)) {
-            for root in self.lattice().roots() {
-                if let Some(corner) = root.corners().iter().position(|&corner| corner == vertex) {
-                    self.descend(root, corner, leaves);
-                }
-            }
-        } else if self.is_split(vertex) {
-            for half in self.lattice().nodes_at(vertex).flat_map(Node::halves) {
-                self.descend(half, 2, leaves);
-            }
-        }
-    }
-    /// The leaves of a triangle at one of its corners.
-    fn descend(&self, mut node: Node, mut corner: usize, leaves: &mut Vec<Leaf>) {
-        loop {
-            if self.lattice().is_dead(node) {
-                return;
-            }
-            if !self.splits(node) {
-                leaves.push(self.leaf(node));
-                return;
-            }
-            let [at_a, at_b] = node.halves();
-            // The half at a is (c, a, m), the half at b is (b, c, m).
-            match corner {
-                0 => (node, corner) = (at_a, 1),
-                1 => (node, corner) = (at_b, 0),
-                _ => {
-                    self.descend(at_a, 0, leaves);
-                    (node, corner) = (at_b, 1);
-                }
-            }
-        }
-    }
-
-    /// Splits at a vertex, and before that where its triangles descend from; appends what was not split before. `None`, and
-    /// nothing is done, when a triangle that is split does not lie in the window, or more than `most` vertices are needed.
-    pub fn insert(&self, vertex: [u32; 2], window: &Window, most: usize, inserted: &mut Vec<[u32; 2]>) -> Option<()> {
-        let begin = inserted.len();
-        inserted.push(vertex);
-        let mut next = begin;
-        let mut sound = true;
-        while sound && next < inserted.len() {
-            let vertex = inserted[next];
-            next += 1;
-            sound = inserted.len() - begin <= most;
-            for node in self.live_at(vertex) {
-                sound &= self.is_in(&self.leaf(node).at, window);
-                let apex = node.apex().map(|at| at as u32 / 2);
-                let corner = apex.iter().all(|at| at.is_multiple_of(self.lattice().side()));
-                if !corner && !self.is_split(apex) && !inserted[begin..].contains(&apex) {
-                    inserted.push(apex);
-                }
-            }
-        }
-        if !sound {
-            inserted.truncate(begin);
-            return None;
-        }
-        for &vertex in &inserted[begin..] {
-            self.set_split(vertex, true);
-        }
-        Some(())
     }
 
     /// The split map as it stands.
@@ -255,23 +132,25 @@ impl<'a> Fabric<'a> {
         }
         split
     }
-    pub fn count(&self) -> u64 {
-        golden(self.lattice(), &self.split_map(), &mut |_| ()).triangles
+    /// Starts again from a split map and the heights of the map.
+    pub fn reset(&mut self, split: &SplitMap) {
+        for (index, flag) in self.flags.iter_mut().enumerate() {
+            *flag.get_mut() = if split.get(index) { SPLIT } else { 0 };
+        }
+        for (height, &sample) in self.heights.iter_mut().zip(self.ground.samples) {
+            *height.get_mut() = i32::from(sample) << 4;
+        }
     }
+    /// The split map and the heights; those where no vertex stands are the map's.
     pub fn finish(self) -> Fitted {
         let split = self.split_map();
-        Fitted { split, heights: self.heights.into_iter().map(|height| height.into_inner() as u32).collect() }
-    }
-    /// The leaves in parts of the lattice, for parallel work.
-    pub fn leaves_below(&self, root: Node, each: &mut impl FnMut(Node)) {
-        let mut waiting = vec![root];
-        while let Some(node) = waiting.pop() {
-            if self.lattice().is_dead(node) {
-            } else if self.splits(node) {
-                waiting.extend(node.halves());
-            } else {
-                each(node);
+        let mut heights: Vec<u32> = self.ground.samples.iter().map(|&sample| u32::from(sample) << 4).collect();
+        golden(self.lattice(), &split, &mut |triangle| {
+            for corner in triangle.corners {
+                let index = self.ground.sample_index(corner);
+                heights[index] = self.height(index as u32) as u32;
             }
-        }
+        });
+        Fitted { split, heights }
     }
 }
