@@ -6,10 +6,10 @@ use super::patch::Patch;
 use super::window::Window;
 use crate::bisector::Node;
 
-/// Deviations that are aimed at are so far below the bound, in 1/16: rounding adds up to half of that unit to them.
-const MARGIN: f32 = 1.0;
-/// What they may exceed that by.
-const SLACK: f32 = 0.45;
+/// Deviations may come so near to the bound, in 1/16: rounding adds up to half of that unit to them.
+const MARGIN: f32 = 0.55;
+/// And this part of the bound below that is aimed at: steps that come from outside end sooner.
+const AIM: f32 = 1.0 / 150.0;
 /// Newton steps of a patch.
 const STEPS: usize = 12;
 /// Newton steps before a vertex counts as necessary.
@@ -25,6 +25,7 @@ pub(super) struct Worker<'f> {
     pub bits: Vec<[u32; 2]>,
     pub heights: Vec<(u32, i32)>,
     theta: f32,
+    slack: f32,
     seed: u64,
     star: Vec<Leaf>,
 }
@@ -32,9 +33,10 @@ pub(super) struct Worker<'f> {
 impl<'f> Worker<'f> {
     pub fn new(fabric: &'f Fabric<'f>, window: Window, seed: u64) -> Worker<'f> {
         let bound = 16.0 * fabric.tolerance.over as f32 / fabric.tolerance.under as f32;
-        let theta = (bound - MARGIN).max(0.5 * bound);
+        let most = (bound - MARGIN).max(0.5 * bound);
+        let slack = AIM * bound;
         let (patch, bits, heights, star) = (Patch::default(), Vec::new(), Vec::new(), Vec::new());
-        Worker { fabric, window, patch, bits, heights, theta, seed: seed | 1, star }
+        Worker { fabric, window, patch, bits, heights, theta: most - slack, slack, seed: seed | 1, star }
     }
     /// A number below `end`.
     pub fn random(&mut self, end: usize) -> usize {
@@ -59,13 +61,13 @@ impl<'f> Worker<'f> {
     /// keep it.
     pub fn settle(&mut self, samples: &[u32], rings: usize) -> bool {
         self.patch.gather(self.fabric, &self.window, samples, rings);
-        let excess = self.patch.solve(self.theta, SLACK, STEPS);
+        let excess = self.patch.solve(self.theta, self.slack, STEPS);
         self.heights.extend(self.patch.write(self.fabric));
-        excess <= SLACK && self.patch.keeps(self.fabric)
+        excess <= self.slack && self.patch.keeps(self.fabric)
     }
     /// The leaf of the patch with the largest excess but `skipped`.
     pub fn worst(&self, skipped: usize) -> Option<Leaf> {
-        self.patch.worst(self.theta + SLACK, skipped)
+        self.patch.worst(self.theta + self.slack, skipped)
     }
 
     /// Whether both triangles of a vertex are split once, and nothing says that they have to be.
@@ -98,7 +100,7 @@ impl<'f> Worker<'f> {
     /// Whether no heights of the corners keep the triangles of a vertex whole.
     pub fn is_necessary(&mut self, vertex: [u32; 2]) -> bool {
         self.patch.gather_whole(self.fabric, self.fabric.live_at(vertex));
-        self.patch.solve(self.theta + MARGIN, SLACK, STEPS_TO_BE_SURE) > SLACK
+        self.patch.solve(self.theta + MARGIN, self.slack, STEPS_TO_BE_SURE) > self.slack
     }
     /// Marks a vertex as removed; the corners of its triangles.
     pub fn clear(&mut self, vertex: [u32; 2]) -> Vec<u32> {
