@@ -4,6 +4,7 @@
 //! This crate knows nothing of rust-hdl, so the reference cannot share a helper, and with it a bug, with the hardware.
 //! Number formats are run-time values here: a chart can sweep a width without a recompilation.
 
+pub mod bake;
 pub mod bisector;
 pub mod body;
 pub mod cull;

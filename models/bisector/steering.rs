@@ -37,11 +37,16 @@ impl SplitMap {
     }
     /// Sets a vertex, and before it those that its triangles descend from: without them there would be T-vertices.
     pub fn insert(&mut self, lattice: &Lattice, vertex: [u32; 2]) {
+        self.insert_with(lattice, vertex, &mut |_| ());
+    }
+    /// The same, and tells of every vertex that was not set before.
+    pub fn insert_with(&mut self, lattice: &Lattice, vertex: [u32; 2], inserted: &mut impl FnMut([u32; 2])) {
         let mut waiting = vec![vertex];
         while let Some(vertex) = waiting.pop() {
             let index = lattice.index(vertex);
             if !self.get(index) {
                 self.set(index, true);
+                inserted(vertex);
                 // A triangle is there once its apex is.
                 let apexes = lattice.nodes_at(vertex).map(|node| node.apex().map(|at| at as u32 / 2));
                 let side = lattice.side();

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The split map of a bound with the map's own heights.
+//!
+//! The set is the least one that is closed and whose leaves all hold, so it does not matter in which order vertices come.
+//! A round tests the leaves that the round before has made; leaves that held and did not change are not tested again.
+
+use rayon::prelude::*;
+
+use super::{Ground, Tolerance};
+use crate::bisector::{Node, SplitMap};
+
+/// The split map that keeps the bound with heights of the map.
+pub fn unfitted(ground: &Ground<'_>, tolerance: Tolerance) -> SplitMap {
+    let lattice = &ground.lattice;
+    let mut split = SplitMap::new(lattice);
+    let mut fresh: Vec<Node> = lattice.roots().to_vec();
+    let fails = |node: &Node| {
+        let midpoint = node.midpoint()?;
+        let height = |index: usize| i32::from(ground.samples[index]) << 4;
+        (!ground.excess(*node, height).is_within(tolerance)).then_some(midpoint)
+    };
+    while !fresh.is_empty() {
+        let failing: Vec<[u32; 2]> = fresh.par_iter().with_min_len(64).filter_map(fails).collect();
+        let mut inserted = Vec::new();
+        for vertex in failing {
+            split.insert_with(lattice, vertex, &mut |vertex| inserted.push(vertex));
+        }
+        fresh.clear();
+        for vertex in inserted {
+            for half in lattice.nodes_at(vertex).flat_map(Node::halves) {
+                let is_leaf = half.midpoint().is_some_and(|midpoint| !split.get(lattice.index(midpoint)));
+                if is_leaf && !lattice.is_dead(half) {
+                    fresh.push(half);
+                }
+            }
+        }
+    }
+    split
+}
