@@ -20,18 +20,6 @@ type Read8Or16 = (HeightMap, Option<String>);
 
 /// Reads the map in the file `path` if it has at most `limit` samples. The string is a warning to print.
 pub fn read(path: &Path, limit: u64) -> Result<Read8Or16, InputError> {
-<<<<<<< HEAD
-    let (map, bits) = read_file(path, Limit { samples: limit, of: "the map memory", unit: "words" })?;
-    Ok((map, warning(bits)))
-}
-
-/// Reads the map in the file `path` as [`read`] does, but leaves the samples as they stand there, from 0 to 2^bits - 1
-/// for the bits that it tells: not what the hardware takes, but what others measure.
-pub fn read_values(path: &Path, limit: u64) -> Result<(HeightMap, u8), InputError> {
-    let (mut map, bits) = read_file(path, Limit { samples: limit, of: "what can be measured", unit: "samples" })?;
-    if bits < 16 {
-        let step = step(bits);
-=======
     let most = |size| within_memory(size, limit);
     open(path, |file| decode(file, limit, most).map(|(map, bits)| (map, steps(bits))))
 }
@@ -48,25 +36,12 @@ pub fn read_values(path: &Path, side: u32) -> Result<(HeightMap, u8), InputError
     if bits < 16 {
         // Scaled to 16 bits without a rest.
         let step = 65535 / ((1u16 << bits) - 1);
->>>>>>> wbake
         map.samples.iter_mut().for_each(|sample| *sample /= step);
     }
     Ok((map, bits))
 }
 
-<<<<<<< HEAD
-/// Samples that a map may have, and why no more.
-#[derive(Clone, Copy)]
-struct Limit {
-    samples: u64,
-    of: &'static str,
-    unit: &'static str,
-}
-
-fn read_file(path: &Path, limit: Limit) -> Result<(HeightMap, u8), InputError> {
-=======
 fn open<T>(path: &Path, decode: impl Fn(BufReader<File>) -> Result<T, String>) -> Result<T, InputError> {
->>>>>>> wbake
     let name = path.display().to_string();
     let fail = |error: std::io::Error| InputError::new(&name, Place::File, format!("cannot be opened: {error}"));
     let file = File::open(path).map_err(fail)?;
@@ -78,22 +53,6 @@ fn open<T>(path: &Path, decode: impl Fn(BufReader<File>) -> Result<T, String>) -
 
 /// Reads a map from the bytes of a PNG, which errors call `name`; what [`read`] does once the file is open.
 pub fn read_from(bytes: &[u8], name: &str, limit: u64) -> Result<Read8Or16, InputError> {
-<<<<<<< HEAD
-    let limit = Limit { samples: limit, of: "the map memory", unit: "words" };
-    let (map, bits) =
-        decode(Cursor::new(bytes), limit).map_err(|message| InputError::new(name, Place::File, message))?;
-    Ok((map, warning(bits)))
-}
-
-/// A height of a map of up to 15 bits is a multiple of this.
-fn step(bits: u8) -> u16 {
-    (65535 / ((1u32 << bits) - 1)) as u16
-}
-
-fn warning(bits: u8) -> Option<String> {
-    (bits < 16).then(|| {
-        let (values, step) = (1u32 << bits, step(bits));
-=======
     let decoded = decode(Cursor::new(bytes), limit, |size| within_memory(size, limit));
     decoded.map(|(map, bits)| (map, steps(bits))).map_err(|message| InputError::new(name, Place::File, message))
 }
@@ -109,15 +68,10 @@ fn within_memory([width, height]: [u32; 2], limit: u64) -> Result<(), String> {
 fn steps(bits: u8) -> Option<String> {
     (bits < 16).then(|| {
         let (values, step) = (1u32 << bits, 65535 / ((1u32 << bits) - 1));
->>>>>>> wbake
         format!("has {bits} bits a sample, so {values} heights with steps of {step} in 65535; 16-bit grey is smooth")
     })
 }
 
-<<<<<<< HEAD
-fn decode(mut source: impl BufRead + Seek, limit: Limit) -> Result<(HeightMap, u8), String> {
-    let bits = examine_header(&mut source, limit)?;
-=======
 /// The map and the bits of its samples, if `fits` agrees with its width and height; at most `limit` samples.
 fn decode(
     mut source: impl BufRead + Seek,
@@ -125,11 +79,10 @@ fn decode(
     fits: impl Fn([u32; 2]) -> Result<(), String>,
 ) -> Result<(HeightMap, u8), String> {
     let bits = examine_header(&mut source, fits)?;
->>>>>>> wbake
     source.seek(SeekFrom::Start(0)).map_err(|error| format!("cannot be read: {error}"))?;
     let wrong = |error: image::ImageError| format!("cannot be decoded: {error}; a whole PNG is expected");
     let mut limits = Limits::default();
-    limits.max_alloc = Some(DECODER_BYTES + 2 * limit.samples);
+    limits.max_alloc = Some(DECODER_BYTES + 2 * limit);
     let decoder = PngDecoder::with_limits(source, limits).map_err(wrong)?;
     let ((width, height), colour) = (decoder.dimensions(), decoder.color_type());
     if !matches!(colour, ColorType::L8 | ColorType::L16) {
@@ -147,11 +100,7 @@ fn decode(
 }
 
 /// Refuses what is no grey PNG of a fitting size; the bits of a sample.
-<<<<<<< HEAD
-fn examine_header(source: &mut impl Read, limit: Limit) -> Result<u8, String> {
-=======
 fn examine_header(source: &mut impl Read, fits: impl Fn([u32; 2]) -> Result<(), String>) -> Result<u8, String> {
->>>>>>> wbake
     let mut head = Vec::with_capacity(29);
     source.take(29).read_to_end(&mut head).map_err(|error| format!("cannot be read: {error}"))?;
     if !head.starts_with(&SIGNATURE[..SIGNATURE.len().min(head.len())]) || head.is_empty() {
@@ -174,16 +123,6 @@ fn examine_header(source: &mut impl Read, fits: impl Fn([u32; 2]) -> Result<(), 
     if let Some(what) = what {
         return Err(format!("{what}; a height map is 16-bit grey without alpha"));
     }
-<<<<<<< HEAD
-    let samples = u64::from(width) * u64::from(height);
-    if samples > limit.samples {
-        let Limit { samples: most, of, unit } = limit;
-        return Err(format!(
-            "is a map of {width} x {height} = {samples} samples, beyond the limit of {of}, {most} {unit}"
-        ));
-    }
-=======
     fits([width, height])?;
->>>>>>> wbake
     Ok(bits)
 }

@@ -46,8 +46,8 @@ pub struct Arguments {
 
 /// Points on each surface where nothing else is said.
 const SAMPLES: u64 = 1_000_000;
-/// Samples of a map: 16,384 a side.
-const MOST_SAMPLES: u64 = 1 << 28;
+/// Samples of a side of a map.
+const MOST_SIDE: u32 = 16_384;
 
 /// What is written as JSON.
 #[derive(Serialize)]
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result {
 fn measure(arguments: &Arguments, meter: &Meter) -> std::result::Result<(Report, String), Box<dyn std::error::Error>> {
     let Arguments { mesh: path, against, samples, samples_per_area, seed, .. } = arguments;
     // The map's mistakes are told before a large mesh is read.
-    let map = is_map(against).then(|| map::read_values(against, MOST_SAMPLES)).transpose()?;
+    let map = is_map(against).then(|| map::read_values(against, MOST_SIDE)).transpose()?;
     let mesh = TriangleMesh::read(path, meter)?;
     let amount = match (samples, samples_per_area) {
         (Some(samples), _) => Some(Amount::Samples(*samples)),
