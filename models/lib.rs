@@ -6,6 +6,7 @@
 
 pub mod body;
 pub mod cull;
+pub mod digits;
 pub mod displace;
 pub mod draw;
 pub mod face_normal;

@@ -18,28 +18,31 @@ const DECODER_BYTES: u64 = 16 << 20;
 /// A map, and a warning if it was one of 8 bits or fewer.
 type Read8Or16 = (HeightMap, Option<String>);
 
-/// Reads the map in the file `path` if it has at most `limit` samples. The string is a warning to print.
-pub fn read(path: &Path, limit: u64) -> Result<Read8Or16, InputError> {
+/// Says what is wrong with a size, as the end of a sentence whose subject is the map.
+type CheckSize<'a> = &'a dyn Fn([usize; 2]) -> Result<(), String>;
+
+/// Reads the map in the file `path` if `check` takes its size. The string is a warning to print.
+pub fn read(path: &Path, check: CheckSize<'_>) -> Result<Read8Or16, InputError> {
     let name = path.display().to_string();
     let fail = |error: std::io::Error| InputError::new(&name, Place::File, format!("cannot be opened: {error}"));
     let file = File::open(path).map_err(fail)?;
     if file.metadata().map_err(fail)?.is_dir() {
         return Err(InputError::new(&name, Place::File, "is a folder; a PNG file is expected"));
     }
-    decode(BufReader::new(file), limit).map_err(|message| InputError::new(&name, Place::File, message))
+    decode(BufReader::new(file), check).map_err(|message| InputError::new(&name, Place::File, message))
 }
 
 /// Reads a map from the bytes of a PNG, which errors call `name`; what [`read`] does once the file is open.
-pub fn read_from(bytes: &[u8], name: &str, limit: u64) -> Result<Read8Or16, InputError> {
-    decode(Cursor::new(bytes), limit).map_err(|message| InputError::new(name, Place::File, message))
+pub fn read_from(bytes: &[u8], name: &str, check: CheckSize<'_>) -> Result<Read8Or16, InputError> {
+    decode(Cursor::new(bytes), check).map_err(|message| InputError::new(name, Place::File, message))
 }
 
-fn decode(mut source: impl BufRead + Seek, limit: u64) -> Result<Read8Or16, String> {
-    let bits = examine_header(&mut source, limit)?;
+fn decode(mut source: impl BufRead + Seek, check: CheckSize<'_>) -> Result<Read8Or16, String> {
+    let (bits, samples) = examine_header(&mut source, check)?;
     source.seek(SeekFrom::Start(0)).map_err(|error| format!("cannot be read: {error}"))?;
     let wrong = |error: image::ImageError| format!("cannot be decoded: {error}; a whole PNG is expected");
     let mut limits = Limits::default();
-    limits.max_alloc = Some(DECODER_BYTES + 2 * limit);
+    limits.max_alloc = Some(DECODER_BYTES + 2 * samples);
     let decoder = PngDecoder::with_limits(source, limits).map_err(wrong)?;
     let ((width, height), colour) = (decoder.dimensions(), decoder.color_type());
     if !matches!(colour, ColorType::L8 | ColorType::L16) {
@@ -60,8 +63,8 @@ fn decode(mut source: impl BufRead + Seek, limit: u64) -> Result<Read8Or16, Stri
     Ok((HeightMap { width: width as usize, height: height as usize, samples }, warning))
 }
 
-/// Refuses what is no grey PNG of a fitting size; the bits of a sample.
-fn examine_header(source: &mut impl Read, limit: u64) -> Result<u8, String> {
+/// Refuses what is no grey PNG of a fitting size; the bits of a sample, and how many samples there are.
+fn examine_header(source: &mut impl Read, check: CheckSize<'_>) -> Result<(u8, u64), String> {
     let mut head = Vec::with_capacity(29);
     source.take(29).read_to_end(&mut head).map_err(|error| format!("cannot be read: {error}"))?;
     if !head.starts_with(&SIGNATURE[..SIGNATURE.len().min(head.len())]) || head.is_empty() {
@@ -84,10 +87,7 @@ fn examine_header(source: &mut impl Read, limit: u64) -> Result<u8, String> {
     if let Some(what) = what {
         return Err(format!("{what}; a height map is 16-bit grey without alpha"));
     }
-    let samples = u64::from(width) * u64::from(height);
-    if samples > limit {
-        let what = "beyond the limit of the map memory";
-        return Err(format!("is a map of {width} x {height} = {samples} samples, {what}, {limit} words"));
-    }
-    Ok(bits)
+    check([width as usize, height as usize])
+        .map_err(|problem| format!("is a map of {width} x {height} samples and {problem}"))?;
+    Ok((bits, u64::from(width) * u64::from(height)))
 }
