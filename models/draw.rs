@@ -115,10 +115,10 @@ pub enum DrawError {
     #[error("triangle {triangle} uses vertex {vertex}, but there are only {vertices}")]
     Index { triangle: usize, vertex: u32, vertices: usize },
     #[error(
-        "`displacement` reaches {largest}, which is {ratio} times `near` / 16, and at most 32768 times is supported; a \
-         `near` of at least {least} is expected"
+        "`displacement` reaches {largest}, which is {ratio} times `near` / 16, and at most 32768 times is supported; at \
+         most {most}, or a `near` of at least {least}, is expected"
     )]
-    Displacement { largest: String, ratio: String, least: String },
+    Displacement { largest: String, ratio: String, most: String, least: String },
     #[error(
         "`near` is {near}, and the scene reaches out to {extent}, which is more than 2^28 times `near` / 16 and so beyond \
          what positions resolve; a `near` of at least {least} is expected"
@@ -150,7 +150,7 @@ pub enum Assembled {
     /// Left out; the picture has a hole there.
     Dropped(DropReason),
     /// For the remesher: the triangle.
-    Kept(BaseTriangle),
+    Kept(Box<BaseTriangle>),
     /// For the remesher: what the constant planes have left of it, as a fan. It has a rim there.
     Cut(Vec<BaseTriangle>),
 }
@@ -159,7 +159,7 @@ impl Assembled {
     /// What goes to the remesher.
     pub fn pieces(&self) -> &[BaseTriangle] {
         match self {
-            Self::Kept(triangle) => std::slice::from_ref(triangle),
+            Self::Kept(triangle) => std::slice::from_ref(&**triangle),
             Self::Cut(pieces) => pieces,
             Self::Culled(_) | Self::Dropped(_) => &[],
         }
@@ -435,8 +435,13 @@ impl Draw {
         let reach = displacement[0].abs().max(displacement[1].abs());
         let exponent = if reach > 0.0 { exponent_above(reach / near).max(-30) } else { -30 };
         if exponent > 15 {
-            let (largest, ratio) = (short(reach), short((reach / near).round()));
-            return Err(DrawError::Displacement { largest, ratio, least: short(rounded_up(reach / 2048.0 * 1.0001)) });
+            let (largest, ratio, most) = (short(reach), short((reach / near).round()), short(near * 32768.0));
+            return Err(DrawError::Displacement {
+                largest,
+                ratio,
+                most,
+                least: short(rounded_up(reach / 2048.0 * 1.0001)),
+            });
         }
         let height = |d: f64| quantise(d / near, exponent - 30);
         let displacement = displace::Constants {
@@ -527,7 +532,11 @@ impl Draw {
                     corners: [p[0], p[k], p[k + 1]].map(|v| v.corner),
                     data: [p[0], p[k], p[k + 1]].map(|v| v.data),
                 };
-                if is_cut { Assembled::Cut((1..p.len() - 1).map(piece).collect()) } else { Assembled::Kept(piece(1)) }
+                if is_cut {
+                    Assembled::Cut((1..p.len() - 1).map(piece).collect())
+                } else {
+                    Assembled::Kept(Box::new(piece(1)))
+                }
             }
         }
     }

@@ -72,7 +72,11 @@ pub(super) fn fields_of(text: &str, name: &str) -> Result<fields::Scene, InputEr
         let place = error.span().map_or(Place::File, |span| Place::Line(line(text, span.start)));
         InputError::new(name, place, message.trim().replace('\n', "; "))
     };
-    let parsed = toml::Deserializer::parse(text).map_err(|error| fail(&error, error.message().to_owned()))?;
+    let parsed = toml::Deserializer::parse(text).map_err(|error| {
+        // Which key, toml leaves to the place.
+        let key = error.span().and_then(|span| text.get(span)).filter(|_| error.message() == "duplicate key");
+        fail(&error, key.map_or(error.message().to_owned(), |key| format!("`{key}` is there twice; once is expected")))
+    })?;
     serde_path_to_error::deserialize(parsed)
         .map_err(|error| fail(error.inner(), sentence(error.path(), error.inner().message())))
 }
@@ -110,7 +114,8 @@ fn sentence(path: &Path, message: &str) -> String {
     }
     if let Some((count, expected)) = problem("invalid length ") {
         let expected = expected.strip_prefix("an array of length ").unwrap_or(expected);
-        return format!("{place}{field} has {count} values; {expected} are expected");
+        let values = if count == "1" { "value" } else { "values" };
+        return format!("{place}{field} has {count} {values}; {expected} are expected");
     }
     message.to_owned()
 }
@@ -123,11 +128,15 @@ fn described(got: &str) -> String {
     }
 }
 
-fn wanted(expected: &str) -> &str {
-    match expected {
+fn wanted(expected: &str) -> String {
+    let wanted = match expected {
         "f64" => "a number",
         "i64" => "an integer",
         _ if expected.starts_with("struct ") => "a table",
         _ => expected,
+    };
+    match wanted.strip_prefix("an array of length ") {
+        Some(length) => format!("an array of {length} values"),
+        None => wanted.to_owned(),
     }
 }

@@ -366,6 +366,23 @@ fn draw_drops_what_the_grid_cannot_hold() {
     assert!(piece.corners[2][2] >= 8190, "{:?}", piece.corners);
 }
 
+/// The host warns with this near plane: it has to be one that closes the seams, and not much more than that.
+#[test]
+fn exact_seams_begin_at_the_near_plane_that_is_told() {
+    let seams = |near: f64, camera: &CameraView| {
+        let camera = CameraView { near, ..*camera };
+        let draw = Draw::new(&camera, &CORNERS.map(vertex), &[[0, 1, 2]], &MAP, [0.0, 0.01], &FORMAT).unwrap();
+        (draw.seams_are_exact(), draw.exact_seams_near())
+    };
+    let mut random = Random(91);
+    for _ in 0..200 {
+        let camera = CameraView { eye: random.direction() * random.between(0.0, 3.0), ..camera() };
+        let (exact, near) = seams(1e-4, &camera);
+        assert!(!exact && near > 1e-4, "{near}");
+        assert!(seams(near, &camera).0 && !seams(0.995 * near, &camera).0, "{camera:?} {near}");
+    }
+}
+
 /// Any number, often of a size that hurts.
 fn anything() -> impl Strategy<Value = f64> {
     prop_oneof![-2.0..2.0f64, -1e-9..1e-9f64, -1e9..1e9f64, Just(0.0), any::<f64>()]

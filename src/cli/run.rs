@@ -88,13 +88,13 @@ pub fn run(arguments: &Arguments) -> Result {
     let (mut rendered, recording) = match rendered {
         Ok(rendered) => rendered,
         Err(error) if error.is_mismatch() => {
-            write_all(stderr(), &format!("mismatch: {error}\n"))?;
+            write_all(stderr(), &format!("mismatch: {error}; nothing was written\n"))?;
             return Ok(Outcome::Mismatch);
         }
         Err(error) => return Err(error.into()),
     };
-    if rendered.report.pixels == 0 && rendered.report.assembled.kept > 0 {
-        let warning = format!("{}: no pixel shows anything of it", arguments.scene.display());
+    for warning in surprises(&rendered.report, scene.remesh.cull) {
+        let warning = format!("{}: {warning}", arguments.scene.display());
         write_all(stderr(), &format!("warning: {warning}\n"))?;
         warnings.push(warning);
     }
@@ -122,6 +122,20 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     write_all(stdout(), &table(&rendered.report, begun.elapsed().as_secs_f64(), out))?;
     Ok(Outcome::Agreed)
+}
+
+/// What only the work could tell.
+fn surprises(report: &Report, cull: bool) -> Vec<String> {
+    let mut surprises = Vec::new();
+    if report.pixels == 0 && report.assembled.kept > 0 {
+        surprises.push("no pixel shows anything of it".to_owned());
+    }
+    let lost = report.invalid_triangles;
+    if !cull && lost > 0 {
+        let what = format!("{lost} triangles reach to the eye or behind it, so the mesh is open there");
+        surprises.push(format!("{what}; an `eye` farther away, or less `displacement`, keeps them"));
+    }
+    surprises
 }
 
 fn table(report: &Report, seconds: f64, out: &Path) -> String {

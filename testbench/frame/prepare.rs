@@ -17,7 +17,7 @@ pub const MOST_TRIANGLES: u64 = 1 << 25;
 /// Triangles that are worth a warning: half a minute.
 const MANY_TRIANGLES: u64 = 1 << 22;
 /// Triangles a second, roughly.
-const SPEED: u64 = 120_000;
+const SPEED: u64 = 300_000;
 
 /// A scene that can be drawn.
 pub struct Prepared<'a> {
@@ -67,14 +67,14 @@ pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, Inp
         let size = BuildSize { width, height, wrap, centring: Centring::Node, levels, poles };
         prepared.objects.push(PreparedObject { object, size, draw });
     }
-    let triangles = short(rounded_up(prepared.triangles as f64));
+    let triangles = rounded_up(prepared.triangles as f64) as u64;
     if prepared.triangles > MOST_TRIANGLES {
         let what =
             format!("about {triangles} triangles would come of this scene, beyond the limit of {MOST_TRIANGLES}");
         return Err(scene.source.error(Entry::Remesh, format!("{what}; {} is expected", remedy(scene, set))));
     }
     if prepared.triangles > MANY_TRIANGLES {
-        let seconds = short(rounded_up((prepared.triangles / SPEED) as f64));
+        let seconds = rounded_up((prepared.triangles / SPEED) as f64) as u64;
         let what = format!("about {triangles} triangles will come of this scene, which takes {seconds} s or so");
         let less = "a greater `cell_px` makes it less";
         prepared.warnings.push(scene.source.error(Entry::Remesh, format!("{what}; {less}")).to_string());
@@ -210,4 +210,61 @@ fn remedy(scene: &Scene, set: &WidthSet) -> String {
     }
     ways.push("an `eye` farther from the surface".to_owned());
     ways.join(", or ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use relief_hdl::widths::WIDTH_SETS;
+    use relief_models::scene::parse;
+    use std::path::Path;
+
+    /// The scene's reader cannot see the hardware, so it has its limit as a constant.
+    #[test]
+    fn prepare_and_the_reader_of_scenes_have_one_limit() {
+        let set = &WIDTH_SETS[0];
+        let limit = Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 };
+        assert_eq!(limit, Limit::DEFAULT);
+    }
+
+    const SCENE: &str = "[camera]\neye = [0, -2.6, 1.7]\n[remesh]\ncell_px = 4\n[[object]]\nmesh = { kind = \"grid\" }\nmap \
+                         = { kind = \"ramp\", size = [300, 9] }\n";
+
+    /// What a smaller width set cannot hold is refused there, too.
+    #[test]
+    fn prepare_refuses_what_another_width_set_cannot_hold() {
+        let scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
+        let small = relief_hdl::widths::small::SET;
+        assert!(prepare(&scene, &WIDTH_SETS[0]).is_ok());
+        // A side of 9 bits goes to 511.
+        assert!(prepare(&scene, &small).is_err_and(|error| !error.to_string().contains("[[object]] 1: the map")));
+        let scene = parse(&SCENE.replace("300", "512"), "scene.toml", Path::new("")).unwrap();
+        let error = prepare(&scene, &small).err().unwrap().to_string();
+        let expected = "scene.toml:5: [[object]] 1: the map ramp of 512 x 9 samples has a side beyond the limit of 511; a \
+                        smaller map is expected";
+        assert_eq!(error, expected);
+    }
+
+    /// A map that the builder cannot count, past all checks: the sentence names entry, block, beat, cycle and both sides.
+    #[test]
+    fn render_names_the_first_mismatch() {
+        let set = &WIDTH_SETS[0];
+        let mut scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
+        let ramp = relief_models::map::Procedural::Ramp;
+        scene.objects[0].map = relief_models::map::HeightMap::procedural(ramp, 2050, 3);
+        let object = &scene.objects[0];
+        let draw = draw_of(&scene, object, &view_of(&scene), set).unwrap();
+        let (wrap, centring) = (object.wrap, Centring::Node);
+        let size = BuildSize { width: 2050, height: 3, wrap, centring, levels: 3, poles: false };
+        let objects = vec![PreparedObject { object, size, draw }];
+        let prepared = Prepared { scene: &scene, objects, triangles: 0, warnings: Vec::new() };
+        let mut pipeline = crate::pipeline::Pipeline::new(set);
+        let mut obj = Vec::new();
+        let error = crate::frame::render(&prepared, &mut pipeline, None, &mut obj, &()).err().unwrap();
+        assert!(error.is_mismatch());
+        let sentence = error.to_string();
+        let start = "scene.toml:5: [[object]] 1: mip_build differs from its golden model: beat 0, cycle ";
+        let end = ", port out_valid: expected no beat, got a beat too many";
+        assert!(sentence.starts_with(start) && sentence.ends_with(end), "{sentence}");
+    }
 }
