@@ -374,13 +374,18 @@ fn exact_seams_begin_at_the_near_plane_that_is_told() {
         let draw = Draw::new(&camera, &CORNERS.map(vertex), &[[0, 1, 2]], &MAP, [0.0, 0.01], &FORMAT).unwrap();
         (draw.seams_are_exact(), draw.exact_seams_near())
     };
-    let mut random = Random(91);
+    let (mut random, mut checked) = (Random(91), 0);
     for _ in 0..200 {
         let camera = CameraView { eye: random.direction() * random.between(0.0, 3.0), ..camera() };
         let (exact, near) = seams(1e-4, &camera);
-        assert!(!exact && near > 1e-4, "{near}");
-        assert!(seams(near, &camera).0 && !seams(0.995 * near, &camera).0, "{camera:?} {near}");
+        assert_eq!(exact, near < 1e-4, "{near}");
+        // Not where everything is behind the eye.
+        if !exact {
+            assert!(seams(near, &camera).0 && !seams(0.995 * near, &camera).0, "{camera:?} {near}");
+            checked += 1;
+        }
     }
+    assert!(checked > 50, "{checked}");
 }
 
 /// Any number, often of a size that hurts.
