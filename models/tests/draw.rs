@@ -371,7 +371,8 @@ fn draw_drops_what_the_grid_cannot_hold() {
 fn exact_seams_begin_at_the_near_plane_that_is_told() {
     let seams = |near: f64, camera: &CameraView| {
         let camera = CameraView { near, ..*camera };
-        let draw = Draw::new(&camera, &CORNERS.map(vertex), &[[0, 1, 2]], &MAP, [0.0, 0.01], &FORMAT).unwrap();
+        let vertices = CORNERS.map(|corner| DrawVertex { uv: DVec2::ONE, ..vertex(corner) });
+        let draw = Draw::new(&camera, &vertices, &[[0, 1, 2]], &MAP, [0.0, 0.01], &FORMAT).unwrap();
         (draw.seams_are_exact(), draw.exact_seams_near())
     };
     let (mut random, mut checked) = (Random(91), 0);
