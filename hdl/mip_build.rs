@@ -11,9 +11,10 @@
 //! | in_width, in_height | unsigned M | of the map, at least one | size
 //! | in_repeat_u, in_repeat_v | Bit | the map repeats; the side must be even at every level | size
 //! | in_cell     | Bit         | cells, otherwise nodes | size
+//! | in_poles    | Bit         | the first and the last row are poles; not together with in_repeat_v | size
 //! | in_levels   | 4 bits      | levels, the map included: 1 ..= 15 | size
 //! | in_value    | UQ16.0      | the texel | texel
-//! | out_level   | 4 bits      | 1 and up, one after the other
+//! | out_level   | 4 bits      | 1 and up, one after the other; with poles 0 before, of which only row 0 and the last one
 //! | out_i, out_j | unsigned M | column and row, in raster order
 //! | out_max, out_min | UQ16.0 |
 //! | out_last    | Bit         | the last node of the last level
@@ -22,12 +23,17 @@
 //!
 //! Odd levels stand in one memory, even ones in another: a complete level is sent, and as it is sent it is the map of
 //! the next one. A map of N texels takes about 4/3 N cycles. 2^B nodes hold every level 2 if B = A - 1.
+//!
+//! A pole is one point of a body, and has one height: with `in_poles` both extrema of a pole row are those of all its
+//! samples, at every level, the map included. A last row of the map between two rows of nodes makes both the pole's.
 
 mod extrema_memory;
 mod fold;
+mod poles;
 
 pub use extrema_memory::ExtremaMemory;
 pub use fold::MipFold;
+pub use poles::MipPoles;
 
 use crate::prelude::*;
 
@@ -43,6 +49,8 @@ pub enum MipBuildState {
     Check,
     /// Takes texels, or nodes of the level before, and sends these.
     Run,
+    /// Sends the pole rows of the map.
+    Poles,
     /// Waits until the last node is written.
     Flush,
 }
@@ -60,6 +68,7 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     pub in_repeat_u: Input<Bit>,
     pub in_repeat_v: Input<Bit>,
     pub in_cell: Input<Bit>,
+    pub in_poles: Input<Bit>,
     pub in_levels: Input<U<4>>,
     pub in_value: Input<U<16>>,
     pub out_valid: Output<Bit>,
@@ -84,6 +93,7 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     repeat_u: DataRegister<Bit>,
     repeat_v: DataRegister<Bit>,
     cells: DataRegister<Bit>,
+    has_poles: DataRegister<Bit>,
     // The node that is read.
     read_at: DataRegister<U<A>>,
     read_valid: Register<Bit>,
@@ -97,6 +107,7 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     sent_last: DataRegister<Bit>,
     area: Multiplier<14, 14, 28>,
     fold: MipFold<M, A>,
+    poles: MipPoles<M>,
     odd_levels: ExtremaMemory<A>,
     even_levels: ExtremaMemory<B>,
     running: Wire<Bit>,
@@ -121,6 +132,8 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     sound: Wire<Bit>,
     reads: Wire<Bit>,
     advance: Wire<Bit>,
+    sends_poles: Wire<Bit>,
+    replaces: Wire<Bit>,
 }
 
 impl<const M: usize, const A: usize, const B: usize> MipBuild<M, A, B> {
@@ -131,10 +144,10 @@ impl<const M: usize, const A: usize, const B: usize> MipBuild<M, A, B> {
 impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, area, fold, odd_levels, even_levels);
+        clock!(self, clock, area, fold, poles, odd_levels, even_levels);
         dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
         dff_setup!(self, clock, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
-        dff_setup!(self, clock, sent_last);
+        dff_setup!(self, clock, sent_last, has_poles);
         self.out_valid.next = self.sent_valid.q.val();
         self.out_level.next = self.sent_level.q.val();
         self.out_i.next = self.sent_i.q.val();
@@ -170,6 +183,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             && self.levels.q.val() != 0
             && (!self.repeat_u.q.val() || self.width_kept.val() == self.width.q.val())
             && (!self.repeat_v.q.val() || self.height_kept.val() == self.height.q.val())
+            && (!self.repeat_v.q.val() || !self.has_poles.q.val())
             && (self.levels.q.val() == 1 || self.nodes_behind.val() == self.nodes.val());
 
         self.running.next = self.state.q.val() == MipBuildState::Run;
@@ -243,6 +257,17 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             && !self.odd_levels.busy.val()
             && !self.even_levels.busy.val();
         self.fold.clear.next = self.size.val() || self.advance.val();
+        self.sends_poles.next = self.state.q.val() == MipBuildState::Poles && self.out_free.val();
+        self.poles.size.next = self.size.val();
+        self.poles.height.next = self.in_height.val();
+        self.poles.advance.next = self.advance.val();
+        self.poles.take.next = self.take.val();
+        self.poles.on_map.next = self.on_map.val();
+        self.poles.cells.next = self.cells.q.val();
+        self.poles.row.next = self.row.q.val();
+        self.poles.max.next = self.texel_max.val();
+        self.poles.min.next = self.texel_min.val();
+        self.replaces.next = self.has_poles.q.val() && self.poles.in_pole.val();
         if self.state.q.val() == MipBuildState::Measure {
             self.state.d.next = MipBuildState::Check;
         } else if self.state.q.val() == MipBuildState::Check {
@@ -251,15 +276,22 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
                 self.state.d.next = MipBuildState::Idle;
                 self.failed.d.next = true;
             }
-        } else if self.take.val() {
+        } else if self.take.val() || self.sends_poles.val() {
             self.column.d.next = self.column.q.val() + 1;
             if self.last_column.val() {
                 self.column.d.next = 0.into();
                 self.row.d.next = self.row.q.val() + 1;
+                if self.sends_poles.val() {
+                    self.row.d.next = self.poles.map_last.val();
+                }
                 if self.last_row.val() {
+                    self.row.d.next = 0.into();
                     self.state.d.next = MipBuildState::Idle;
                     if self.folds.val() {
                         self.state.d.next = MipBuildState::Flush;
+                    }
+                    if self.take.val() && self.on_map.val() && self.has_poles.q.val() {
+                        self.state.d.next = MipBuildState::Poles;
                     }
                 }
             }
@@ -284,6 +316,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.repeat_u.d.next = self.in_repeat_u.val();
             self.repeat_v.d.next = self.in_repeat_v.val();
             self.cells.d.next = self.in_cell.val();
+            self.has_poles.d.next = self.in_poles.val();
             self.read_valid.d.next = false;
             if self.running.val() {
                 self.failed.d.next = true;
@@ -293,14 +326,18 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.failed.d.next = true;
         }
         if self.out_free.val() {
-            self.sent_valid.d.next = self.take.val() && !self.on_map.val();
+            self.sent_valid.d.next = (self.take.val() && !self.on_map.val()) || self.sends_poles.val();
         }
-        if self.take.val() && !self.on_map.val() {
+        if (self.take.val() && !self.on_map.val()) || self.sends_poles.val() {
             self.sent_level.d.next = self.level.q.val();
             self.sent_i.d.next = self.column.q.val();
             self.sent_j.d.next = self.row.q.val();
             self.sent_max.d.next = self.texel_max.val();
             self.sent_min.d.next = self.texel_min.val();
+            if self.replaces.val() {
+                self.sent_max.d.next = self.poles.pole_max.val();
+                self.sent_min.d.next = self.poles.pole_min.val();
+            }
             self.sent_last.d.next = self.last_column.val() && self.last_row.val() && !self.folds.val();
         }
     }
@@ -312,9 +349,9 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
 
 ports! {
     [const M: usize, const A: usize, const B: usize] MipBuild<M, A, B> {
-        inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_levels, in_value, out_ready;
+        inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_poles, in_levels, in_value, out_ready;
         outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
-        blocks: fold, odd_levels, even_levels;
-        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, odd_levels, even_levels
+        blocks: fold, poles, odd_levels, even_levels;
+        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells, has_poles, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, poles, odd_levels, even_levels
     }
 }

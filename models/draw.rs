@@ -16,6 +16,7 @@
 //! copies that a wrap seam or a pole needs do not part.
 
 use crate::cull::{self, Reason};
+use crate::digits::{rounded_up, short};
 use crate::displace::{self, displaced};
 use crate::face_normal::{self, Pixel};
 use crate::filter_level;
@@ -92,9 +93,10 @@ pub enum DrawError {
     #[error("the viewport is {0} x {1} pixels; 1 to 8192 are supported on each side")]
     Viewport(u32, u32),
     #[error(
-        "the focal length is {0:.1} pixels; 1/16 to 65535 are supported, so change the field of view or the viewport"
+        "`fov_y_deg` is {degrees} over {rows} rows of `viewport`, a focal length of {focal} pixels, and 1/16 to 65535 are \
+         supported; an angle from {low} to {high} degrees is expected"
     )]
-    Focal(f64),
+    Focal { degrees: String, rows: u32, focal: String, low: String, high: String },
     #[error("cell_px is {0}; 1/64 to 4096 pixels are supported")]
     Cell(f64),
     #[error("the map is {0} x {1} texels; 1 to 8192 are supported on each side")]
@@ -113,14 +115,15 @@ pub enum DrawError {
     #[error("triangle {triangle} uses vertex {vertex}, but there are only {vertices}")]
     Index { triangle: usize, vertex: u32, vertices: usize },
     #[error(
-        "the displacement is {largest}, {ratio:.0} times the distance {z0} of the cutting plane (near / 16); \
-             at most 32768 times is supported"
+        "`displacement` reaches {largest}, which is {ratio} times `near` / 16, and at most 32768 times is supported; at \
+         most {most}, or a `near` of at least {least}, is expected"
     )]
-    Displacement { largest: f64, z0: f64, ratio: f64 },
+    Displacement { largest: String, ratio: String, most: String, least: String },
     #[error(
-        "near / 16 is {z0}, but the scene reaches out to {extent}; 2^28 times is the most the positions can resolve"
+        "`near` is {near}, and the scene reaches out to {extent}, which is more than 2^28 times `near` / 16 and so beyond \
+         what positions resolve; a `near` of at least {least} is expected"
     )]
-    Extent { z0: f64, extent: f64 },
+    Extent { near: String, extent: String, least: String },
     #[error("the remesher format has {components} components of {bits} bits; a draw needs 9 of 32")]
     Format { components: usize, bits: u32 },
     #[error(transparent)]
@@ -146,8 +149,21 @@ pub enum Assembled {
     Culled(Reason),
     /// Left out; the picture has a hole there.
     Dropped(DropReason),
-    /// For the remesher: the triangle, or what the constant planes have left of it, as a fan.
-    Kept(Vec<BaseTriangle>),
+    /// For the remesher: the triangle.
+    Kept(Box<BaseTriangle>),
+    /// For the remesher: what the constant planes have left of it, as a fan. It has a rim there.
+    Cut(Vec<BaseTriangle>),
+}
+
+impl Assembled {
+    /// What goes to the remesher.
+    pub fn pieces(&self) -> &[BaseTriangle] {
+        match self {
+            Self::Kept(triangle) => std::slice::from_ref(&**triangle),
+            Self::Cut(pieces) => pieces,
+            Self::Culled(_) | Self::Dropped(_) => &[],
+        }
+    }
 }
 
 /// How many base triangles went which way. The counts only grow.
@@ -155,22 +171,86 @@ pub enum Assembled {
 pub struct Counts {
     /// Base triangles that went to the remesher, whole or cut.
     pub kept: u64,
+    /// Those of them that z0 or the guard band has cut.
+    pub cut: u64,
     /// Pieces that they made.
     pub pieces: u64,
-    /// Culled, by [`Reason`].
-    pub culled: [u64; 6],
-    /// Dropped, by [`DropReason`].
-    pub dropped: [u64; 3],
+    /// Culled.
+    pub culled: Culled,
+    /// Dropped.
+    pub dropped: Dropped,
+}
+
+/// Culled base triangles, by [`Reason`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[allow(missing_docs)] // The reasons say it.
+pub struct Culled {
+    pub left: u64,
+    pub right: u64,
+    pub top: u64,
+    pub bottom: u64,
+    pub near: u64,
+    pub far: u64,
+}
+
+impl Culled {
+    /// All of them, with their reasons.
+    pub fn named(&self) -> [(&'static str, u64); 6] {
+        let Self { left, right, top, bottom, near, far } = *self;
+        [("left", left), ("right", right), ("top", top), ("bottom", bottom), ("near", near), ("far", far)]
+    }
+    /// How many.
+    pub fn total(&self) -> u64 {
+        self.named().iter().map(|(_, count)| count).sum()
+    }
+}
+
+/// Dropped base triangles, by [`DropReason`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Dropped {
+    /// All of it is nearer than z0 or beyond the guard band.
+    pub near: u64,
+    /// X or Y does not fit its lane.
+    pub lane: u64,
+    /// A grid coordinate does not fit.
+    pub grid: u64,
+}
+
+impl Dropped {
+    /// How many.
+    pub const fn total(&self) -> u64 {
+        self.near + self.lane + self.grid
+    }
 }
 
 impl Counts {
     /// Counts one base triangle.
     pub fn count(&mut self, assembled: &Assembled) {
         match assembled {
-            Assembled::Culled(reason) => self.culled[*reason as usize] += 1,
-            Assembled::Dropped(reason) => self.dropped[*reason as usize] += 1,
-            Assembled::Kept(pieces) => {
+            Assembled::Culled(reason) => {
+                *match reason {
+                    Reason::Left => &mut self.culled.left,
+                    Reason::Right => &mut self.culled.right,
+                    Reason::Top => &mut self.culled.top,
+                    Reason::Bottom => &mut self.culled.bottom,
+                    Reason::Near => &mut self.culled.near,
+                    Reason::Far => &mut self.culled.far,
+                } += 1;
+            }
+            Assembled::Dropped(reason) => {
+                *match reason {
+                    DropReason::Near => &mut self.dropped.near,
+                    DropReason::Lane => &mut self.dropped.lane,
+                    DropReason::Grid => &mut self.dropped.grid,
+                } += 1;
+            }
+            Assembled::Kept(_) => {
                 self.kept += 1;
+                self.pieces += 1;
+            }
+            Assembled::Cut(pieces) => {
+                self.kept += 1;
+                self.cut += 1;
                 self.pieces += pieces.len() as u64;
             }
         }
@@ -212,6 +292,7 @@ pub struct Draw {
     /// Corners of the base triangles.
     pub triangles: Vec<[u32; 3]>,
     seams_are_exact: bool,
+    exact_seams_near: f64,
     eye: DVec3,
     z0: f64,
 }
@@ -268,7 +349,14 @@ impl Draw {
         let tangent = libm::tan(camera.fov_y / 2.0);
         let (pixel, focal) = (2.0 * tangent / rows, rows / (2.0 * tangent));
         if !(0.0625..=65535.0).contains(&focal) {
-            return Err(DrawError::Focal(focal));
+            let degrees = |focal: f64| (2.0 * libm::atan(rows / (2.0 * focal))).to_degrees();
+            return Err(DrawError::Focal {
+                degrees: short(camera.fov_y.to_degrees()),
+                rows: camera.viewport[1],
+                focal: short(focal),
+                low: short((degrees(65535.0) * 1e3).ceil() / 1e3),
+                high: short((degrees(0.0625) * 1e3).floor() / 1e3),
+            });
         }
         // Rows right, down, forward.
         let forward = (camera.target - camera.eye).try_normalize().ok_or(DrawError::NoDirection)?;
@@ -291,7 +379,8 @@ impl Draw {
         let unit = extent - 44;
         let z0 = quantise(camera.near / 16.0, unit);
         if z0 < 1 << 16 {
-            return Err(DrawError::Extent { z0: camera.near / 16.0, extent: largest });
+            let (near, extent) = (short(camera.near), short(largest));
+            return Err(DrawError::Extent { near, extent, least: short(rounded_up(power_of_two(unit + 20))) });
         }
         // From here on z0 is what the integers say.
         let near = z0 as f64 * power_of_two(unit);
@@ -346,7 +435,13 @@ impl Draw {
         let reach = displacement[0].abs().max(displacement[1].abs());
         let exponent = if reach > 0.0 { exponent_above(reach / near).max(-30) } else { -30 };
         if exponent > 15 {
-            return Err(DrawError::Displacement { largest: reach, z0: near, ratio: reach / near });
+            let (largest, ratio, most) = (short(reach), short((reach / near).round()), short(near * 32768.0));
+            return Err(DrawError::Displacement {
+                largest,
+                ratio,
+                most,
+                least: short(rounded_up(reach / 2048.0 * 1.0001)),
+            });
         }
         let height = |d: f64| quantise(d / near, exponent - 30);
         let displacement = displace::Constants {
@@ -369,6 +464,8 @@ impl Draw {
             (vertex_transform::depth(&transform, (c - 3).max(1)) - last).clamp(0, (nearest - 1 + last).max(0)) as i32;
         let texel_bits = axes[0].texel_bits.max(axes[1].texel_bits);
         let seams_are_exact = (1i64 << texel_bits) << 7 <= c;
+        // A thousandth for the rounding of z0.
+        let exact_seams_near = deepest as f64 * power_of_two(unit + texel_bits as i32 - 20) * 1.001;
         let (scale, shift) = mantissa(pixel);
         Ok(Draw {
             cull: true,
@@ -383,6 +480,7 @@ impl Draw {
             records,
             triangles: triangles.to_vec(),
             seams_are_exact,
+            exact_seams_near,
             eye: DVec3::from_array(eye.map(|x| f64::from(x) * power_of_two(extent - 30))),
             z0: near,
         })
@@ -393,6 +491,11 @@ impl Draw {
     /// Beyond it the two sides of a wrap seam may part by a rounding, far away.
     pub const fn seams_are_exact(&self) -> bool {
         self.seams_are_exact
+    }
+
+    /// The near plane from which on [`seams_are_exact`](Self::seams_are_exact), all else being equal.
+    pub const fn exact_seams_near(&self) -> f64 {
+        self.exact_seams_near
     }
 
     /// z0 in world units, as the integers have it.
@@ -409,8 +512,12 @@ impl Draw {
             return Assembled::Culled(reason);
         }
         let mut polygon = corners.to_vec();
+        let mut is_cut = false;
         for plane in 0..5 {
-            polygon = self.cut(&polygon, plane);
+            if polygon.iter().any(|v| self.distance(plane, v.position) < 0) {
+                polygon = self.cut(&polygon, plane);
+                is_cut = true;
+            }
         }
         if polygon.len() < 3 {
             return Assembled::Dropped(DropReason::Near);
@@ -420,14 +527,17 @@ impl Draw {
         match projected {
             Err(OutOfRange::Lane) => Assembled::Dropped(DropReason::Lane),
             Err(OutOfRange::Grid) => Assembled::Dropped(DropReason::Grid),
-            Ok(p) => Assembled::Kept(
-                (1..p.len() - 1)
-                    .map(|k| BaseTriangle {
-                        corners: [p[0], p[k], p[k + 1]].map(|v| v.corner),
-                        data: [p[0], p[k], p[k + 1]].map(|v| v.data),
-                    })
-                    .collect(),
-            ),
+            Ok(p) => {
+                let piece = |k: usize| BaseTriangle {
+                    corners: [p[0], p[k], p[k + 1]].map(|v| v.corner),
+                    data: [p[0], p[k], p[k + 1]].map(|v| v.data),
+                };
+                if is_cut {
+                    Assembled::Cut((1..p.len() - 1).map(piece).collect())
+                } else {
+                    Assembled::Kept(Box::new(piece(1)))
+                }
+            }
         }
     }
 
@@ -450,9 +560,6 @@ impl Draw {
     /// The plane is the same for all base triangles and each cut a function of its edge alone, so neighbours stay closed.
     fn cut(&self, polygon: &[ViewVertex], plane: usize) -> Vec<ViewVertex> {
         let at: Vec<i64> = polygon.iter().map(|v| self.distance(plane, v.position)).collect();
-        if at.iter().all(|d| *d >= 0) {
-            return polygon.to_vec();
-        }
         let mut left = Vec::with_capacity(polygon.len() + 1);
         for (k, vertex) in polygon.iter().enumerate() {
             let next = (k + 1) % polygon.len();

@@ -8,6 +8,7 @@ pub mod bake;
 pub mod bisector;
 pub mod body;
 pub mod cull;
+pub mod digits;
 pub mod displace;
 pub mod draw;
 pub mod face_normal;

@@ -8,7 +8,8 @@
 //! ```
 //!
 //! A map lies in the memories of the hardware as a pyramid of node-centred levels: a clamp axis of `n` samples has
-//! `n / 2 + 1` on the next level, a repeat axis `n / 2`. [`levels`] lists them, [`words`] adds them up.
+//! `n / 2 + 1` on the next level, a repeat axis `n / 2`. [`levels`] lists them, [`bank_words`] adds them up, and
+//! [`Limit::check`] tells whether they fit.
 //!
 //! ```
 //! use relief_models::map::{HeightMap, Procedural, Wrap, levels};
@@ -26,8 +27,41 @@ pub use crate::mip_build::Wrap;
 pub use procedural::Procedural;
 pub use read_png::{read, read_from, read_values};
 
-/// Words of the pyramid memory in the default width set, over all levels.
-pub const MEMORY_WORDS: u64 = 524_288;
+/// How large a map may be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limit {
+    /// Samples along an axis: what the hardware's numbers of a side count.
+    pub side: usize,
+    /// Words in each of the four banks of the map memory.
+    pub bank_words: u64,
+}
+
+impl Limit {
+    /// That of the default width set.
+    pub const DEFAULT: Limit = Limit { side: 2_047, bank_words: 131_072 };
+
+    /// Whether the memory can hold a map of this size with all its levels, and read four texels of it at once.
+    ///
+    /// # Errors
+    /// What the map is or does instead, as the end of a sentence.
+    pub fn check(&self, size: [usize; 2], wrap: [Wrap; 2]) -> Result<(), String> {
+        let Limit { side, bank_words: limit } = *self;
+        if size.iter().any(|samples| *samples > side) {
+            return Err(format!("has a side beyond the limit of {side}; a smaller map is expected"));
+        }
+        if let Some(axis) = (0..2).find(|axis| wrap[*axis] == Wrap::Repeat && size[*axis] % 2 == 1) {
+            let (axis, period) = (["u", "v"][axis], size[axis]);
+            let what = format!("repeats in {axis} with a period of {period} samples, which is odd");
+            return Err(format!("{what}; an even number, or better a power of two, is expected"));
+        }
+        let words = bank_words(size, wrap);
+        if words <= limit {
+            return Ok(());
+        }
+        let what = format!("takes {words} words in each of the four banks of the map memory");
+        Err(format!("{what}, with its levels, beyond the limit of {limit}; a smaller map is expected"))
+    }
+}
 
 /// A map of 16-bit heights.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,7 +88,12 @@ pub fn levels(size: [usize; 2], wrap: [Wrap; 2]) -> Vec<[usize; 2]> {
     std::iter::successors(Some(size), above).take(count).collect()
 }
 
-/// Words of all levels of a map's pyramid.
-pub fn words(size: [usize; 2], wrap: [Wrap; 2]) -> u64 {
-    levels(size, wrap).iter().map(|[width, height]| (*width as u64).saturating_mul(*height as u64)).sum()
+/// Words of all levels of a map's pyramid in each of four banks, which hold the even and the odd columns of the even and
+/// the odd rows.
+pub fn bank_words(size: [usize; 2], wrap: [Wrap; 2]) -> u64 {
+    let words = |level: &[usize; 2]| level.map(|side| side.div_ceil(2) as u64);
+    levels(size, wrap)
+        .iter()
+        .map(words)
+        .fold(0, |sum, [width, height]| sum.saturating_add(width.saturating_mul(height)))
 }

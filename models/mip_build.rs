@@ -325,12 +325,14 @@ pub struct BuildSize {
     pub centring: Centring,
     /// Levels, the map included.
     pub levels: usize,
+    /// Whether the first and the last row are poles; not where the map repeats along v.
+    pub poles: bool,
 }
 
 /// A node that the builder sends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Node {
-    /// Level, 1 and up.
+    /// Level, 1 and up; 0 for a pole row of the map.
     pub level: usize,
     /// Column.
     pub i: usize,
@@ -344,7 +346,8 @@ pub struct Node {
     pub last: bool,
 }
 
-/// Golden model of the builder: collects a map and sends the nodes of its levels.
+/// Golden model of the builder: collects a map and sends the nodes of its levels, with poles the pole rows of the map
+/// before them.
 #[derive(Clone, Debug)]
 pub struct MipBuild {
     nodes: usize,
@@ -366,7 +369,7 @@ impl MipBuild {
     /// Takes a size.
     pub fn size(&mut self, size: BuildSize) {
         self.error |= self.map.is_some();
-        let BuildSize { width, height, wrap, centring, levels } = size;
+        let BuildSize { width, height, wrap, centring, levels, poles } = size;
         let fits =
             levels < 2 || side_above(width, centring, wrap[0]) * side_above(height, centring, wrap[1]) <= self.nodes;
         // The periods of every level, of a map of zeros along each axis.
@@ -376,6 +379,7 @@ impl MipBuild {
                 .all(|(side, wrap)| *wrap == Wrap::Clamp || side >> level & 1 == 0)
         });
         let sound = width > 0 && height > 0 && (1..=MAX_LEVELS).contains(&levels) && even && fits;
+        let sound = sound && !(poles && wrap[1] == Wrap::Repeat);
         self.error |= !sound;
         self.map = sound.then(|| (size, Vec::new()));
     }
@@ -391,15 +395,17 @@ impl MipBuild {
             self.map = Some((size, texels));
             return Vec::new();
         }
-        let BuildSize { width, height, wrap, centring, levels } = size;
-        let build = |extremum| golden(width, height, &texels, centring, wrap, extremum, levels);
+        let BuildSize { width, height, wrap, centring, levels, poles } = size;
+        let map = Map { width, height, samples: &texels };
+        let build = |extremum| build(map, centring, wrap, extremum, levels, poles);
         let (Ok(most), Ok(least)) = (build(Extremum::Max), build(Extremum::Min)) else {
             // A size that was taken has a pyramid.
             unreachable!("{size:?}");
         };
         let mut nodes = Vec::new();
-        for (level, (most, least)) in most.levels.iter().zip(&least.levels).enumerate().skip(1) {
-            for (i, j) in (0..most.height).flat_map(|j| (0..most.width).map(move |i| (i, j))) {
+        for (level, (most, least)) in most.levels.iter().zip(&least.levels).enumerate() {
+            let is_sent = |j: &usize| level > 0 || poles && (*j == 0 || j + 1 == height);
+            for (i, j) in (0..most.height).filter(is_sent).flat_map(|j| (0..most.width).map(move |i| (i, j))) {
                 nodes.push(Node { level, i, j, max: most.at(i, j), min: least.at(i, j), last: false });
             }
         }

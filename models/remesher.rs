@@ -169,6 +169,17 @@ impl BaseTriangle {
         }
         Ok(())
     }
+
+    /// About how many triangles it becomes: twice its area in the remeshing plane, and half of its rim in voxels, for the
+    /// triangles at the rim are no halves of voxels.
+    pub fn estimate(&self) -> u64 {
+        let [a, b, c] = self.corners.map(|corner| corner.map(i64::from));
+        let side = |from: [i64; 3], to: [i64; 3]| [0, 1, 2].map(|axis| to[axis] - from[axis]);
+        let (ab, ac, bc) = (side(a, b), side(a, c), side(b, c));
+        let twice = [(0, 1), (1, 2), (2, 0)].map(|(u, v)| (ab[u] * ac[v] - ab[v] * ac[u]).unsigned_abs());
+        let rim = [ab, ac, bc].map(|side| side.map(i64::unsigned_abs).into_iter().max().unwrap_or(0));
+        twice.into_iter().max().unwrap_or(0) + rim.iter().sum::<u64>() / 2
+    }
 }
 
 /// Sends the beats of `base` to `sink`, in order; the hardware sends the same ones, bit for bit.

@@ -29,6 +29,9 @@ mod fields;
 mod heights;
 mod numbers;
 mod object;
+mod source;
+
+pub use source::{Entry, Source};
 
 /// Bytes of a scene file.
 const FILE_BYTES: u64 = 1 << 20;
@@ -48,6 +51,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Sentences for the user about what is not wrong but may surprise.
     pub warnings: Vec<String>,
+    /// Where it all stands, for further messages.
+    pub source: Source,
 }
 
 /// A pinhole camera. `x` of the picture goes to the right, `y` down, `z` away from the eye.
@@ -125,42 +130,33 @@ pub fn read(path: &Path) -> Result<Scene, InputError> {
 
 /// Reads a scene from its text. Errors call it `name`; the files that it names are relative to `folder`.
 pub fn parse(text: &str, name: &str, folder: &Path) -> Result<Scene, InputError> {
-    let line = |byte: usize| {
-        let before = &text.as_bytes()[..byte.min(text.len())];
-        Place::Line(before.iter().filter(|byte| **byte == b'\n').count() as u64 + 1)
-    };
-    let scene: fields::Scene = toml::from_str(text).map_err(|error| {
-        let place = error.span().map_or(Place::File, |span| line(span.start));
-        InputError::new(name, place, error.message().trim().replace('\n', "; "))
-    })?;
-    let fail = |message: String| InputError::new(name, Place::File, message);
+    let scene = source::fields_of(text, name)?;
+    let source = Source::new(name, text, &scene);
     for (what, count) in [("object", scene.object.len()), ("light", scene.light.len())] {
         if count > ITEMS {
-            return Err(fail(format!("has {count} [[{what}]] entries, beyond the limit of {ITEMS}")));
+            return Err(source.whole(format!("has {count} [[{what}]] entries, beyond the limit of {ITEMS}")));
         }
     }
     if scene.object.is_empty() {
-        return Err(fail("has no [[object]]; at least one, with `mesh` and `map`, is expected".into()));
+        return Err(source.whole("has no [[object]]; at least one, with `mesh` and `map`, is expected"));
     }
     let mut warnings = Vec::new();
     // What can be told without opening another file comes first.
-    let place = line(scene.camera.span().start);
     let (camera, warning) =
-        camera::resolve(scene.camera.get_ref()).map_err(|message| InputError::new(name, place, message))?;
-    warnings.extend(warning);
-    let remesh = camera::resolve_remesh(&scene.remesh).map_err(fail)?;
-    let lights = camera::resolve_lights(&scene.light).map_err(fail)?;
+        camera::resolve(scene.camera.get_ref()).map_err(|message| source.error(Entry::Camera, message))?;
+    warnings.extend(warning.map(|warning| source.error(Entry::Camera, warning).to_string()));
+    let settings = scene.remesh.as_ref().map(|remesh| remesh.get_ref());
+    let remesh = camera::resolve_remesh(settings).map_err(|message| source.error(Entry::Remesh, message))?;
+    let lights =
+        camera::resolve_lights(&scene.light).map_err(|(at, message)| source.error(Entry::Light(at), message))?;
     let mut objects = Vec::with_capacity(scene.object.len());
     for (index, object) in scene.object.iter().enumerate() {
-        let place = line(object.span().start);
         let object =
             object::resolve(object.get_ref(), folder, camera.eye, &mut warnings).map_err(|error| match error {
-                object::Error::Value(message) => {
-                    InputError::new(name, place, format!("[[object]] {}: {message}", index + 1))
-                }
+                object::Error::Value(message) => source.error(Entry::Object(index), message),
                 object::Error::File(error) => error,
             })?;
         objects.push(object);
     }
-    Ok(Scene { camera, remesh, objects, lights, warnings })
+    Ok(Scene { camera, remesh, objects, lights, warnings, source })
 }

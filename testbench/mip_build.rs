@@ -15,15 +15,15 @@ pub struct MipBuildBinding;
 
 /// The beat of a size.
 pub fn size_beat(size: &BuildSize) -> Beat {
-    let BuildSize { width, height, wrap, centring, levels } = *size;
+    let BuildSize { width, height, wrap, centring, levels, poles } = *size;
     let [repeat_u, repeat_v] = wrap.map(|wrap| u64::from(wrap == Wrap::Repeat));
     let cell = u64::from(centring == Centring::Cell);
-    vec![0, width as u64, height as u64, repeat_u, repeat_v, cell, levels as u64, 0]
+    vec![0, width as u64, height as u64, repeat_u, repeat_v, cell, u64::from(poles), levels as u64, 0]
 }
 
 /// The beat of a texel.
 pub fn texel_beat(value: u16) -> Beat {
-    vec![1, 0, 0, 0, 0, 0, 0, u64::from(value)]
+    vec![1, 0, 0, 0, 0, 0, 0, 0, u64::from(value)]
 }
 
 /// `Repeat` where a flag is set.
@@ -35,11 +35,12 @@ struct Golden(MipBuild);
 
 impl Model for Golden {
     fn accept(&mut self, beat: &Beat, expected: &mut Vec<Expected>) {
-        let &[kind, width, height, repeat_u, repeat_v, cell, levels, value] = &beat[..] else { return };
+        let &[kind, width, height, repeat_u, repeat_v, cell, poles, levels, value] = &beat[..] else { return };
         if kind == 0 {
             let centring = if cell == 1 { Centring::Cell } else { Centring::Node };
             let [width, height, levels] = [width, height, levels].map(|number| number as usize);
-            self.0.size(BuildSize { width, height, wrap: [repeat_u, repeat_v].map(wrap_of), centring, levels });
+            let (wrap, poles) = ([repeat_u, repeat_v].map(wrap_of), poles == 1);
+            self.0.size(BuildSize { width, height, wrap, centring, levels, poles });
             return;
         }
         for node in self.0.texel(value as u16) {
@@ -96,19 +97,20 @@ impl Maps {
         self.queue.push_back(beat);
     }
     fn size(&mut self, size: &BuildSize) {
-        self.push(size_beat(size), &[1, 2, 3, 4, 5, 6]);
+        self.push(size_beat(size), &[1, 2, 3, 4, 5, 6, 7]);
     }
     fn texels(&mut self, count: usize) {
         for _ in 0..count {
             let value = random_sample(&mut self.random);
-            self.push(texel_beat(value), &[7]);
+            self.push(texel_beat(value), &[8]);
         }
     }
     fn fault(&mut self) {
         let most = 1 << self.set.side_bits;
-        let clamp = BuildSize { width: 3, height: 3, wrap: [Wrap::Clamp; 2], centring: Centring::Node, levels: 3 };
+        let (wrap, centring) = ([Wrap::Clamp; 2], Centring::Node);
+        let clamp = BuildSize { width: 3, height: 3, wrap, centring, levels: 3, poles: false };
         let odd = |side: usize, wrap| BuildSize { width: side, height: 6, wrap, ..clamp };
-        match self.random.below(8) {
+        match self.random.below(9) {
             0 => self.texels(1),
             1 => {
                 // A map that stops short of its end.
@@ -121,6 +123,7 @@ impl Maps {
             4 => self.size(&BuildSize { levels: 0, ..clamp }),
             5 => self.size(&BuildSize { width: most, height: most, ..clamp }),
             6 => self.size(&odd(3, [Wrap::Repeat, Wrap::Clamp])),
+            7 => self.size(&BuildSize { wrap: [Wrap::Clamp, Wrap::Repeat], levels: 1, poles: true, ..odd(4, wrap) }),
             _ => self.size(&odd(12, [Wrap::Clamp, Wrap::Repeat])),
         }
     }
@@ -142,7 +145,8 @@ impl Maps {
         let most = if wrap == [Wrap::Clamp; 2] { MAX_LEVELS } else { max_levels(width, height, centring, wrap) };
         let range = if random.chance(10) { 15 } else { 5 };
         let levels = (1 + random.below(range) as usize).min(most);
-        self.size(&BuildSize { width, height, wrap, centring, levels });
+        let poles = wrap[1] == Wrap::Clamp && random.chance(40);
+        self.size(&BuildSize { width, height, wrap, centring, levels, poles });
         self.texels(width * height);
     }
 }
@@ -158,10 +162,11 @@ impl Iterator for Maps {
 }
 
 /// The input fields and their bits.
-fn bits(set: &WidthSet) -> [(&'static str, usize); 8] {
+fn bits(set: &WidthSet) -> [(&'static str, usize); 9] {
     let m = set.side_width();
-    let flags = ("repeat_u", "repeat_v", "cell");
-    [("kind", 1), ("width", m), ("height", m), (flags.0, 1), (flags.1, 1), (flags.2, 1), ("levels", 4), ("value", 16)]
+    let flag = |name| (name, 1);
+    let [repeat_u, repeat_v, cell, poles] = ["repeat_u", "repeat_v", "cell", "poles"].map(flag);
+    [("kind", 1), ("width", m), ("height", m), repeat_u, repeat_v, cell, poles, ("levels", 4), ("value", 16)]
 }
 
 impl Binding for MipBuildBinding {
@@ -191,8 +196,8 @@ impl Binding for MipBuildBinding {
         Box::new(Maps { set: *set, random: Random::new(seed), queue: VecDeque::new(), maps: 0 })
     }
     fn stimulus_format(&self) -> &'static str {
-        "kind (0 size, 1 texel), width, height, repeat_u, repeat_v, cell (0 or 1 each), levels and the texel's value, all \
-         of them in every line"
+        "kind (0 size, 1 texel), width, height, repeat_u, repeat_v, cell, poles (0 or 1 each), levels and the texel's \
+         value, all of them in every line"
     }
     fn parse(&self, set: &WidthSet, numbers: &[i64]) -> Result<Beat, String> {
         unsigned_fields(numbers, &bits(set))

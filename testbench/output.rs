@@ -104,10 +104,55 @@ fn unfinished() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
     UNFINISHED.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Removes every file and folder that has no name yet: for a program that is told to stop.
+/// Removes every file and folder that has no name yet, and the folders that were made for them: for a program that is
+/// told to stop.
 pub fn remove_unfinished() {
     for path in unfinished().drain(..) {
         let _ = if path.is_dir() { fs::remove_dir_all(&path) } else { fs::remove_file(&path) };
+    }
+    remove_empty(&mut made());
+}
+
+/// Folders that were made for outputs, outer ones first.
+static MADE: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+
+fn made() -> std::sync::MutexGuard<'static, Vec<PathBuf>> {
+    MADE.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Removes those that are empty, inner ones first.
+fn remove_empty(folders: &mut Vec<PathBuf>) {
+    for folder in folders.drain(..).rev() {
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// A folder made for outputs. Those made for nothing, it and the ones above it, go again with this value.
+#[derive(Debug)]
+pub struct MadeFolder(());
+
+impl MadeFolder {
+    /// Makes `path` and what is missing above it.
+    ///
+    /// # Errors
+    /// A sentence: something else is there, or the system refuses.
+    pub fn open(path: &Path) -> Result<Self, String> {
+        let missing: Vec<&Path> =
+            path.ancestors().take_while(|folder| !folder.as_os_str().is_empty() && !folder.exists()).collect();
+        if let Some(file) = path.ancestors().find(|path| path.exists()).filter(|path| !path.is_dir()) {
+            return Err(format!("{}: is a file; a folder is expected", file.display()));
+        }
+        made().extend(missing.into_iter().rev().map(Path::to_path_buf));
+        let opened = Self(());
+        let fail = |error| format!("{}: the folder cannot be made: {error}", path.display());
+        fs::create_dir_all(path).map_err(fail)?;
+        Ok(opened)
+    }
+}
+
+impl Drop for MadeFolder {
+    fn drop(&mut self) {
+        remove_empty(&mut made());
     }
 }
 

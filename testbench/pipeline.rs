@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A draw through the pipeline: remesher, height fetch and strip unit are hardware on one clock; what stands between them
-//! is golden and takes no cycles of its own.
+//! is golden and takes no cycles of its own. Before the draw the pyramid builder, hardware too, makes the levels of the map.
 //!
 //! ```text
+//! map -> [mip_build] -> levels -> [mip_fetch]
 //! base triangles -> [remesher] -> step -> request -> [mip_fetch] -> displace -> step -> [strip_unit] -> triangles
 //!                                  `------------------ at most 32 steps wait -------------------'
 //! ```
@@ -16,6 +17,7 @@ mod unit;
 pub use recording::PipelineRecording;
 
 use crate::binding::{Beat, find};
+use crate::mip_build::{size_beat, texel_beat};
 use crate::mip_fetch::{command_beat, load_beats};
 use crate::remesh::TrianglePorts;
 use crate::remesher::{beat_of, step_of, words_of};
@@ -23,7 +25,7 @@ use crate::replay::{Replay, ReplayError};
 use crate::scoreboard::{Mismatch, PATIENCE};
 use relief_hdl::widths::WidthSet;
 use relief_models::draw::Draw;
-use relief_models::mip_build::Pyramid;
+use relief_models::mip_build::{BuildSize, Extremum, Level, Pyramid, side_above};
 use relief_models::mip_fetch::{Command, Filter};
 use relief_models::remesher::BaseTriangle;
 use relief_models::step::{Step, Vertex};
@@ -32,7 +34,7 @@ use std::collections::VecDeque;
 use unit::Unit;
 
 /// The blocks that run as hardware, in the order of the pipeline.
-pub const BLOCKS: [&str; 3] = ["remesher", "mip_fetch", "strip_unit"];
+pub const BLOCKS: [&str; 4] = ["mip_build", "remesher", "mip_fetch", "strip_unit"];
 
 /// Steps that wait for their heights at most.
 const DEPTH: usize = 32;
@@ -86,6 +88,8 @@ pub struct Counts {
     pub triangles: u64,
     /// Cycles of the draws.
     pub cycles: u64,
+    /// Cycles that built the levels of the maps.
+    pub build_cycles: u64,
     /// Cycles that filled the map memory.
     pub load_cycles: u64,
     /// Cycles in which a step waited for the vertices before it.
@@ -100,18 +104,21 @@ struct Waiting {
     lacking: usize,
 }
 
-/// The three blocks.
+/// The blocks.
 pub struct Pipeline {
     set: &'static WidthSet,
-    units: [Unit; 3],
+    units: [Unit; 4],
     ports: TrianglePorts,
     modules: Vec<Replay>,
     counts: Counts,
 }
 
-const REMESHER: usize = 0;
-const FETCH: usize = 1;
-const STRIP: usize = 2;
+const BUILD: usize = 0;
+const REMESHER: usize = 1;
+const FETCH: usize = 2;
+const STRIP: usize = 3;
+/// The blocks of the draw's clock.
+const DRAW: std::ops::RangeFrom<usize> = REMESHER..;
 
 impl Pipeline {
     /// The blocks at a width set, reset.
@@ -135,12 +142,62 @@ impl Pipeline {
         self.counts
     }
     /// Beats of each block that were compared with its golden model.
-    pub fn compared(&self) -> [u64; 3] {
+    pub fn compared(&self) -> [u64; 4] {
         self.units.each_ref().map(|unit| unit.compared)
     }
     /// Cycles of each block that its module has followed.
     pub fn followed(&self) -> Vec<u64> {
         self.modules.iter().map(Replay::followed).collect()
+    }
+
+    /// Builds the levels of a map, of maxima: the map itself, its pole rows as the builder sends them, and what stands
+    /// above.
+    ///
+    /// # Errors
+    /// The block is at fault.
+    pub fn build(&mut self, size: &BuildSize, samples: &[u16]) -> Result<Pyramid, PipelineError> {
+        let BuildSize { width, height, wrap, centring, levels, poles } = *size;
+        let mut pyramid = Pyramid { levels: Vec::new(), centring, wrap, extremum: Extremum::Max };
+        let (mut w, mut h) = (width, height);
+        for _ in 0..levels {
+            pyramid.levels.push(Level { width: w, height: h, samples: vec![0; w * h] });
+            (w, h) = (side_above(w, centring, wrap[0]), side_above(h, centring, wrap[1]));
+        }
+        pyramid.levels[0].samples.copy_from_slice(samples);
+        let pole_samples = if poles { width * height.min(2) } else { 0 };
+        let mut awaited = pole_samples + pyramid.levels[1..].iter().map(|level| level.samples.len()).sum::<usize>();
+        let mut beats = std::iter::once(size_beat(size)).chain(samples.iter().map(|sample| texel_beat(*sample)));
+        let mut silent = 0;
+        loop {
+            let unit = &mut self.units[BUILD];
+            if !unit.offers() {
+                match beats.next() {
+                    Some(beat) => unit.offer(&beat),
+                    None if awaited == 0 => break,
+                    None => {}
+                }
+            }
+            unit.settle();
+            let moves = unit.stage.accepts() || unit.stage.sends();
+            let mut sent = None;
+            unit.finish(&mut sent)?;
+            if let Some(words) = sent {
+                let [level, i, j] = [0, 1, 2].map(|at| words[at] as usize);
+                let level = &mut pyramid.levels[level];
+                level.samples[j * level.width + i] = words[3] as u16;
+                // A node too many would have been a mismatch.
+                awaited -= 1;
+            }
+            self.note(BUILD)?;
+            self.units[BUILD].edge();
+            self.counts.build_cycles += 1;
+            silent = if moves { 0 } else { silent + 1 };
+            if silent > PATIENCE {
+                return Err(PipelineError::Hangs(self.counts.build_cycles));
+            }
+        }
+        self.units[BUILD].no_error()?;
+        Ok(pyramid)
     }
 
     /// Fills the map memory.
@@ -208,9 +265,9 @@ impl Pipeline {
             }
             let room = waiting.len() < DEPTH;
             self.units[REMESHER].take(room);
-            self.units.iter_mut().for_each(Unit::settle);
+            self.units[DRAW].iter_mut().for_each(Unit::settle);
             if let Some(recording) = recording {
-                recording.sample(&self.units, self.counts.cycles)?;
+                recording.sample(&self.units[DRAW], self.counts.cycles)?;
             }
             self.counts.cycles += 1;
             let outputs = &self.units[REMESHER].stage;
@@ -219,13 +276,13 @@ impl Pipeline {
             self.counts.silent += u64::from(!has_step);
             self.counts.bases += u64::from(self.units[REMESHER].stage.accepts());
 
-            let moves = self.units.iter().any(|unit| unit.stage.accepts() || unit.stage.sends());
+            let moves = self.units[DRAW].iter().any(|unit| unit.stage.accepts() || unit.stage.sends());
             silent = if moves { 0 } else { silent + 1 };
             if silent > PATIENCE {
                 return Err(PipelineError::Hangs(self.counts.cycles));
             }
-            let mut sent: [Option<Beat>; 3] = [None, None, None];
-            for (unit, sent) in self.units.iter_mut().zip(&mut sent) {
+            let mut sent: [Option<Beat>; 4] = Default::default();
+            for (unit, sent) in self.units.iter_mut().zip(&mut sent).skip(REMESHER) {
                 unit.finish(sent)?;
             }
             if let Some(words) = &sent[FETCH] {
@@ -260,7 +317,7 @@ impl Pipeline {
                 }
                 done += usize::from(self.ports.last(outputs));
             }
-            for unit in 0..3 {
+            for unit in REMESHER..self.units.len() {
                 self.note(unit)?;
                 self.units[unit].edge();
             }

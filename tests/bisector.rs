@@ -55,7 +55,9 @@ fn run(set: &WidthSet, beats: Box<dyn Iterator<Item = Beat> + '_>, pattern: Patt
     let counts = scoreboard
         .run(Until::Exhausted, &mut |_, inputs, outputs| {
             if outputs[layout.out_valid] == 1 && inputs[layout.out_ready] == 1 {
-                taken.push(layout.out_fields().flat_map(|(port, at)| &outputs[*at..at + port.words()]).copied().collect());
+                taken.push(
+                    layout.out_fields().flat_map(|(port, at)| &outputs[*at..at + port.words()]).copied().collect(),
+                );
             }
             Ok(())
         })

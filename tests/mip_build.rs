@@ -4,6 +4,7 @@
 use relief_hdl::mip_build::MipBuild as Hardware;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet, small};
 use relief_hdl::with_width_set;
+use relief_models::map;
 use relief_models::mip_build::{BuildSize, Centring, Extremum, Wrap, golden, max_levels};
 use relief_testbench::binding::{Beat, Binding, Random};
 use relief_testbench::mip_build::{MipBuildBinding, size_beat, texel_beat};
@@ -27,7 +28,7 @@ fn beats(size: &BuildSize, mut texel: impl FnMut() -> u16) -> Vec<Beat> {
 }
 
 fn clamped(width: usize, height: usize, levels: usize) -> BuildSize {
-    BuildSize { width, height, wrap: [Wrap::Clamp; 2], centring: Centring::Node, levels }
+    BuildSize { width, height, wrap: [Wrap::Clamp; 2], centring: Centring::Node, levels, poles: false }
 }
 
 /// Counts, the last error, and the cycles in which the last texel was taken and the first node came.
@@ -67,7 +68,27 @@ fn mip_build_latency_is_its_constant() {
     }
 }
 
-/// All sizes up to 9 x 9, both centrings and all borders that fit, one behind the other in one run.
+/// With poles the first thing to come is the first sample of the map's first row.
+#[test]
+fn mip_build_sends_the_pole_rows_of_the_map_first() {
+    for (width, height, levels) in [(5, 7, 3), (4, 1, 1), (1, 1, 2), (6, 2, 1)] {
+        let size = BuildSize { poles: true, ..clamped(width, height, levels) };
+        let mut value = 0;
+        let texel = || {
+            value += 1;
+            value
+        };
+        let (counts, error, [taken, first]) = run(&small::SET, beats(&size, texel), Pattern::NONE);
+        assert_eq!((first - taken, error), (2, false), "{width} x {height}");
+        let wrap = [Wrap::Clamp; 2];
+        let above: usize = map::levels([width, height], wrap)[1..].iter().take(levels - 1).map(|[w, h]| w * h).sum();
+        // A level beyond the last useful one is a copy of it.
+        let more = levels.saturating_sub(map::levels([width, height], wrap).len());
+        assert_eq!(counts.checked as usize, width * height.min(2) + above + more, "{width} x {height}");
+    }
+}
+
+/// All sizes up to 9 x 9, both centrings, all borders that fit, with and without poles, one behind the other in one run.
 #[test]
 fn mip_build_builds_every_small_map() {
     let mut random = Random::new(3);
@@ -78,18 +99,21 @@ fn mip_build_builds_every_small_map() {
                 |side: usize| if side.is_multiple_of(2) { vec![Wrap::Clamp, Wrap::Repeat] } else { vec![Wrap::Clamp] };
             for wrap in axis(width).into_iter().flat_map(|u| axis(height).into_iter().map(move |v| [u, v])) {
                 let levels = max_levels(width, height, centring, wrap);
-                let size = BuildSize { width, height, wrap, centring, levels };
-                all.extend(beats(&size, || random.bits() as u16));
                 let zeros = vec![0; width * height];
                 let pyramid = golden(width, height, &zeros, centring, wrap, Extremum::Max, levels).unwrap();
-                nodes += pyramid.levels[1..].iter().map(|level| level.samples.len() as u64).sum::<u64>();
+                let above = pyramid.levels[1..].iter().map(|level| level.samples.len() as u64).sum::<u64>();
+                for poles in [false, true].into_iter().filter(|poles| !poles || wrap[1] == Wrap::Clamp) {
+                    let size = BuildSize { width, height, wrap, centring, levels, poles };
+                    all.extend(beats(&size, || random.bits() as u16));
+                    nodes += above + if poles { (width * height.min(2)) as u64 } else { 0 };
+                }
             }
         }
     }
     for pattern in [Pattern::NONE, Pattern { idle: 30, stall: 50, seed: 1 }] {
         let (counts, error, _) = run(&small::SET, all.clone(), pattern);
         assert_eq!((counts.checked, error), (nodes, false));
-        assert!(nodes > 3_000, "{nodes}");
+        assert!(nodes > 7_000, "{nodes}");
     }
 }
 
@@ -121,6 +145,7 @@ fn mip_build_errors_are_sticky_and_the_next_map_is_right() {
         odd(5, 4, [repeat, clamp], 1),
         odd(4, 12, [clamp, repeat], 3),
         odd(2, 2, [repeat, repeat], 2),
+        size_beat(&BuildSize { poles: true, wrap: [clamp, repeat], ..clamped(4, 4, 2) }),
         texel_beat(5),
         // A map that is not finished.
         size_beat(&clamped(3, 3, 2)),
@@ -162,8 +187,8 @@ fn mip_build_reset_in_the_middle_of_a_stream() {
             block.in_kind.next = (beat[0] as i32).into();
             block.in_width.next = (beat[1] as i32).into();
             block.in_height.next = (beat[2] as i32).into();
-            block.in_levels.next = (beat[6] as i32).into();
-            block.in_value.next = (beat[7] as i32).into();
+            block.in_levels.next = (beat[7] as i32).into();
+            block.in_value.next = (beat[8] as i32).into();
         }
         unit.settle();
         let taken = beat.is_some() && unit.block().in_ready.val();

@@ -18,21 +18,21 @@ const DECODER_BYTES: u64 = 16 << 20;
 /// A map, and a warning if it was one of 8 bits or fewer.
 type Read8Or16 = (HeightMap, Option<String>);
 
-/// Reads the map in the file `path` if it has at most `limit` samples. The string is a warning to print.
-pub fn read(path: &Path, limit: u64) -> Result<Read8Or16, InputError> {
-    let most = |size| within_memory(size, limit);
-    open(path, |file| decode(file, limit, most).map(|(map, bits)| (map, steps(bits))))
+/// Says what is wrong with a size, as the end of a sentence whose subject is the map.
+type CheckSize<'a> = &'a dyn Fn([usize; 2]) -> Result<(), String>;
+
+/// Reads the map in the file `path` if `check` takes its size. The string is a warning to print.
+pub fn read(path: &Path, check: CheckSize<'_>) -> Result<Read8Or16, InputError> {
+    read_file(path, check).map(|(map, bits)| (map, steps(bits)))
 }
 
 /// Reads the map in the file `path` with its own values (0 to 255 where it has 8 bits) if both sides are 2 to `side`
 /// samples long. The number is that of the bits of a sample.
 pub fn read_values(path: &Path, side: u32) -> Result<(HeightMap, u8), InputError> {
-    let most = |[width, height]: [u32; 2]| {
-        let sound = (2..=side).contains(&width) && (2..=side).contains(&height);
-        let message = || format!("is a map of {width} x {height} samples; 2 x 2 to {side} x {side} is expected");
-        if sound { Ok(()) } else { Err(message()) }
-    };
-    let (mut map, bits) = open(path, |file| decode(file, u64::from(side) * u64::from(side), most))?;
+    let (mut map, bits) = read_file(path, &|size| {
+        let sound = size.iter().all(|length| (2..=side as usize).contains(length));
+        if sound { Ok(()) } else { Err(format!("2 x 2 to {side} x {side} are expected")) }
+    })?;
     if bits < 16 {
         // Scaled to 16 bits without a rest.
         let step = 65535 / ((1u16 << bits) - 1);
@@ -41,27 +41,20 @@ pub fn read_values(path: &Path, side: u32) -> Result<(HeightMap, u8), InputError
     Ok((map, bits))
 }
 
-fn open<T>(path: &Path, decode: impl Fn(BufReader<File>) -> Result<T, String>) -> Result<T, InputError> {
+fn read_file(path: &Path, check: CheckSize<'_>) -> Result<(HeightMap, u8), InputError> {
     let name = path.display().to_string();
     let fail = |error: std::io::Error| InputError::new(&name, Place::File, format!("cannot be opened: {error}"));
     let file = File::open(path).map_err(fail)?;
     if file.metadata().map_err(fail)?.is_dir() {
         return Err(InputError::new(&name, Place::File, "is a folder; a PNG file is expected"));
     }
-    decode(BufReader::new(file)).map_err(|message| InputError::new(&name, Place::File, message))
+    decode(BufReader::new(file), check).map_err(|message| InputError::new(&name, Place::File, message))
 }
 
 /// Reads a map from the bytes of a PNG, which errors call `name`; what [`read`] does once the file is open.
-pub fn read_from(bytes: &[u8], name: &str, limit: u64) -> Result<Read8Or16, InputError> {
-    let decoded = decode(Cursor::new(bytes), limit, |size| within_memory(size, limit));
+pub fn read_from(bytes: &[u8], name: &str, check: CheckSize<'_>) -> Result<Read8Or16, InputError> {
+    let decoded = decode(Cursor::new(bytes), check);
     decoded.map(|(map, bits)| (map, steps(bits))).map_err(|message| InputError::new(name, Place::File, message))
-}
-
-fn within_memory([width, height]: [u32; 2], limit: u64) -> Result<(), String> {
-    let samples = u64::from(width) * u64::from(height);
-    let what = "beyond the limit of the map memory";
-    let message = || format!("is a map of {width} x {height} = {samples} samples, {what}, {limit} words");
-    if samples > limit { Err(message()) } else { Ok(()) }
 }
 
 /// The warning of a map of few bits.
@@ -72,17 +65,13 @@ fn steps(bits: u8) -> Option<String> {
     })
 }
 
-/// The map and the bits of its samples, if `fits` agrees with its width and height; at most `limit` samples.
-fn decode(
-    mut source: impl BufRead + Seek,
-    limit: u64,
-    fits: impl Fn([u32; 2]) -> Result<(), String>,
-) -> Result<(HeightMap, u8), String> {
-    let bits = examine_header(&mut source, fits)?;
+/// The map and the bits of its samples, if `check` takes its size.
+fn decode(mut source: impl BufRead + Seek, check: CheckSize<'_>) -> Result<(HeightMap, u8), String> {
+    let (bits, samples) = examine_header(&mut source, check)?;
     source.seek(SeekFrom::Start(0)).map_err(|error| format!("cannot be read: {error}"))?;
     let wrong = |error: image::ImageError| format!("cannot be decoded: {error}; a whole PNG is expected");
     let mut limits = Limits::default();
-    limits.max_alloc = Some(DECODER_BYTES + 2 * limit);
+    limits.max_alloc = Some(DECODER_BYTES + 2 * samples);
     let decoder = PngDecoder::with_limits(source, limits).map_err(wrong)?;
     let ((width, height), colour) = (decoder.dimensions(), decoder.color_type());
     if !matches!(colour, ColorType::L8 | ColorType::L16) {
@@ -99,8 +88,8 @@ fn decode(
     Ok((HeightMap { width: width as usize, height: height as usize, samples }, bits))
 }
 
-/// Refuses what is no grey PNG of a fitting size; the bits of a sample.
-fn examine_header(source: &mut impl Read, fits: impl Fn([u32; 2]) -> Result<(), String>) -> Result<u8, String> {
+/// Refuses what is no grey PNG of a fitting size; the bits of a sample, and how many samples there are.
+fn examine_header(source: &mut impl Read, check: CheckSize<'_>) -> Result<(u8, u64), String> {
     let mut head = Vec::with_capacity(29);
     source.take(29).read_to_end(&mut head).map_err(|error| format!("cannot be read: {error}"))?;
     if !head.starts_with(&SIGNATURE[..SIGNATURE.len().min(head.len())]) || head.is_empty() {
@@ -123,6 +112,7 @@ fn examine_header(source: &mut impl Read, fits: impl Fn([u32; 2]) -> Result<(), 
     if let Some(what) = what {
         return Err(format!("{what}; a height map is 16-bit grey without alpha"));
     }
-    fits([width, height])?;
-    Ok(bits)
+    check([width as usize, height as usize])
+        .map_err(|problem| format!("is a map of {width} x {height} samples and {problem}"))?;
+    Ok((bits, u64::from(width) * u64::from(height)))
 }

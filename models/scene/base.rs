@@ -36,7 +36,9 @@ pub(super) fn resolve(mesh: &fields::Mesh, folder: &Path, warnings: &mut Vec<Str
             None => Ok(()),
         };
     let whose = "the limit of a body's cells along an axis";
-    let cells = |low: [u32; 2], default: [i64; 2]| counts("cells", mesh.cells.unwrap_or(default), low, CELLS, whose);
+    let cells = |low: [u32; 2], default: [i64; 2]| {
+        counts("cells", mesh.cells.map_or(default, |cells| cells.0), low, CELLS, whose)
+    };
     let radius = || positive("radius", mesh.radius.unwrap_or(0.5));
     let (file, kind) = match (&mesh.file, mesh.kind) {
         (Some(file), None) => (Some(file), Kind::Grid),
@@ -61,7 +63,7 @@ pub(super) fn resolve(mesh: &fields::Mesh, folder: &Path, warnings: &mut Vec<Str
     Ok(match kind {
         Kind::Grid => {
             only("grid", &["cells", "size"])?;
-            let [x, y] = mesh.size.unwrap_or([1.0, 1.0]);
+            let [x, y] = mesh.size.map_or([1.0, 1.0], |size| size.0);
             let size = [positive("size", x)?, positive("size", y)?];
             let mesh = BaseMesh::grid(cells([1, 1], [8, 8])?, size);
             Body { mesh, name: "grid", wrap: [None; 2], poles: false, has_inside: false }

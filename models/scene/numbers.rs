@@ -3,17 +3,24 @@
 
 use glam::DVec3;
 
+use crate::digits::short;
+
 /// World units beyond which squares and products lose their use.
 const FAR_AWAY: f64 = 1e9;
 /// Lengths below which two vertices could fall together.
 const TINY: f64 = 1e-9;
+
+/// Three numbers in few digits.
+pub(super) fn short_vector(value: DVec3) -> String {
+    format!("[{}]", value.to_array().map(short).join(", "))
+}
 
 /// A number that is neither NaN nor infinite nor far away.
 pub(super) fn finite(field: &str, value: f64) -> Result<f64, String> {
     if value.abs() <= FAR_AWAY {
         return Ok(value);
     }
-    Err(format!("`{field}` is {value}; a finite number from -1e9 to 1e9 is expected"))
+    Err(format!("`{field}` is {}; a finite number from -1e9 to 1e9 is expected", short(value)))
 }
 
 /// A finite number of some size.
@@ -21,7 +28,7 @@ pub(super) fn positive(field: &str, value: f64) -> Result<f64, String> {
     if finite(field, value)? >= TINY {
         return Ok(value);
     }
-    Err(format!("`{field}` is {value}; a number greater than 0 (1e-9 at least) is expected"))
+    Err(format!("`{field}` is {}; a number greater than 0 (1e-9 at least) is expected", short(value)))
 }
 
 /// Three finite numbers.
@@ -43,7 +50,7 @@ pub(super) fn within(field: &str, value: f64, low: f64, high: f64) -> Result<f64
     if finite(field, value)? >= low && value <= high {
         return Ok(value);
     }
-    Err(format!("`{field}` is {value}; a number from {low} to {high} is expected"))
+    Err(format!("`{field}` is {}; a number from {low} to {high} is expected", short(value)))
 }
 
 /// Two integers within inclusive bounds; `high` is the limit `whose`.

@@ -384,7 +384,10 @@ fn bake_folders_that_do_not_fit_are_refused() {
         (Box::new(text("\"version\": 1", "\"version\": 2")), "version 2; \"relief bake\", version 1, is expected"),
         (Box::new(text("relief bake", "relief cake")), "is of format \"relief cake\""),
         (Box::new(text("\"levels\": 6", "\"levels\": 7")), "has 7 levels; 6 are expected"),
-        (Box::new(text("\"width\": 45", "\"width\": 1")), "has a map of 1 x 29 samples; 2 x 2 to 4097 x 4097 is expected"),
+        (
+            Box::new(text("\"width\": 45", "\"width\": 1")),
+            "has a map of 1 x 29 samples; 2 x 2 to 4097 x 4097 is expected",
+        ),
         (Box::new(text("\"width\": 45", "\"width\": 46")), "map.png: is a picture of 45 x 29 samples"),
         (Box::new(text("\"bound\": \"700\"", "\"bound\": \"soon\"")), "`soon` is no bound"),
         (Box::new(text("\"mirrored\"", "\"mirror\"")), "is not as version 1 has it: unknown field `mirror`"),

@@ -188,13 +188,12 @@ fn displaced_sphere_has_no_open_edge() {
             draw.cull = false;
             let mut edges = Edges::default();
             for index in 0..triangles.len() {
-                let Assembled::Kept(pieces) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
-                assert_eq!(pieces.len(), 1);
+                let Assembled::Kept(piece) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
                 let height = |request: Request| {
                     levels[request.level as usize] += 1;
                     pyramid.fetch(request)
                 };
-                for triangle in displaced_triangles(&draw, &pieces[0], height) {
+                for triangle in displaced_triangles(&draw, &piece, height) {
                     assert!(Draw::is_drawable(&triangle));
                     edges.add(triangle.map(|v| [v[0], v[1], v[2]]));
                     total += 1;
@@ -217,8 +216,8 @@ fn open_edges(cell_px: f64, map: &MapInfo, height: impl Fn(&Draw, &Pyramid, &Ver
     draw.cull = false;
     let mut edges = Edges::default();
     for index in 0..triangles.len() {
-        let Assembled::Kept(pieces) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
-        for triangle in heighten(&draw, &pieces[0], |v| height(&draw, &pyramid, v)) {
+        let Assembled::Kept(piece) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
+        for triangle in heighten(&draw, &piece, |v| height(&draw, &pyramid, v)) {
             edges.add(triangle.map(|v| [v[0], v[1], v[2]]));
         }
     }
@@ -301,7 +300,7 @@ fn seams_and_poles_ask_for_equal_texels() {
         assert!(draw.seams_are_exact());
         draw.cull = false;
         let [left, right] = [0, 1].map(|index| match draw.assemble(index) {
-            Assembled::Kept(pieces) => along_edge_0(&pieces[0]),
+            Assembled::Kept(piece) => along_edge_0(&piece),
             other => panic!("{other:?}"),
         });
         assert_eq!(left.len(), right.len());
@@ -382,7 +381,7 @@ fn close_camera(random: &mut Random) -> CameraView {
 fn cut_triangles_stay_closed_but_for_the_planes() {
     let mut random = Random(5);
     let (vertices, triangles) = sphere(12, 6, 0.5);
-    let (mut cuts, mut rim) = (0, 0);
+    let (mut whole, mut cuts, mut rim) = (0, 0, 0);
     for _ in 0..200 {
         let view = CameraView { near: 1.0, ..close_camera(&mut random) };
         let mut draw = Draw::new(&view, &vertices, &triangles, &MAP, [0.0, 0.01], &FORMAT).unwrap();
@@ -392,8 +391,8 @@ fn cut_triangles_stay_closed_but_for_the_planes() {
             let assembled = draw.assemble(index);
             counts.count(&assembled);
             match assembled {
-                Assembled::Kept(pieces) => {
-                    for piece in pieces {
+                Assembled::Kept(_) | Assembled::Cut(_) => {
+                    for piece in assembled.pieces() {
                         piece.validate(&FORMAT).unwrap();
                         edges.add(piece.data.map(|v| [v[0], v[1], v[2]]));
                     }
@@ -401,7 +400,9 @@ fn cut_triangles_stay_closed_but_for_the_planes() {
                 other => assert_eq!(other, Assembled::Dropped(DropReason::Near)),
             }
         }
-        assert_eq!(counts.kept + counts.dropped[0], triangles.len() as u64);
+        assert_eq!(counts.kept + counts.dropped.near, triangles.len() as u64);
+        assert!(counts.cut > 0 || counts.pieces == counts.kept);
+        whole += counts.kept - counts.cut;
         cuts += counts.pieces - counts.kept;
         for (a, b) in edges.open() {
             let guard = 8189 << 18;
@@ -412,7 +413,7 @@ fn cut_triangles_stay_closed_but_for_the_planes() {
         }
     }
     println!("cut: {cuts} further pieces, {rim} rim segments");
-    assert!(cuts > 100 && rim > 100);
+    assert!(cuts > 100 && rim > 100 && whole > 100);
 }
 
 #[test]
@@ -431,8 +432,10 @@ fn cull_never_takes_what_is_visible() {
             let assembled = draw.assemble(index);
             counts.count(&assembled);
             let Assembled::Culled(reason) = assembled else { continue };
-            let Assembled::Kept(pieces) = all.assemble(index) else { continue };
-            for triangle in pieces.iter().flat_map(|piece| displaced_triangles(&all, piece, |r| pyramid.fetch(r))) {
+            let all_of_it = all.assemble(index);
+            for triangle in
+                all_of_it.pieces().iter().flat_map(|piece| displaced_triangles(&all, piece, |r| pyramid.fetch(r)))
+            {
                 for v in triangle.iter().filter(|v| v[displaced::FLAGS] == 0) {
                     let [x, y] = [v[0], v[1]].map(|x| x as f64 / 256.0);
                     let z = draw.z0() * 2_147_483_648.0 / v[2] as f64;
@@ -452,7 +455,7 @@ fn cull_never_takes_what_is_visible() {
     }
     println!("cull: {counts:?}, {checked} vertices checked");
     assert!(checked > 100_000 && counts.kept > 100);
-    assert!(counts.culled.iter().enumerate().all(|(k, &n)| n > 10 || k == Reason::Near as usize));
+    assert!(counts.culled.named().iter().all(|(name, n)| *n > 10 || *name == "near"));
 }
 
 #[test]
@@ -467,7 +470,8 @@ fn displace_matches_f64() {
         let draw = Draw::new(&view, &vertices, &triangles, &MAP, [-0.05, 0.2], &FORMAT).unwrap();
         let level = Draw::new(&view, &vertices, &triangles, &MAP, [0.0, 0.0], &FORMAT).unwrap();
         for index in 0..triangles.len() {
-            let Assembled::Kept(pieces) = draw.assemble(index) else { continue };
+            let assembled = draw.assemble(index);
+            let pieces = assembled.pieces();
             let mut check = |v: &Vertex| {
                 if v[lane::X].abs() > 320 << 18 || v[lane::Y].abs() > 240 << 18 {
                     return;
@@ -489,7 +493,7 @@ fn displace_matches_f64() {
                 }
                 assert!((0..=2).contains(&(v[lane::C] - plain[2])), "{} {}", v[lane::C], plain[2]);
             };
-            for piece in &pieces {
+            for piece in pieces {
                 remesher::golden(&FORMAT, piece, &mut |step| {
                     if step.sends_left() {
                         check(&step.left_vertex);
@@ -513,8 +517,8 @@ fn vertices_beyond_the_eye_are_flagged() {
     let vertices = [DVec3::new(-1.0, 4.0, -1.0), DVec3::new(1.0, 4.0, -1.0), DVec3::new(0.0, 4.0, 1.0)].map(vertex);
     let view = CameraView { near: 1.0, ..camera(DVec3::ZERO, DVec3::Y, 8.0) };
     let draw = Draw::new(&view, &vertices, &[[0, 1, 2]], &MAP, [0.0, 8.0], &FORMAT).unwrap();
-    let Assembled::Kept(pieces) = draw.assemble(0) else { panic!() };
-    let flags = |d: f64| draw.displace(&pieces[0].data[0], (d / 8.0 * 65535.0 * 256.0) as u32)[displaced::FLAGS];
+    let Assembled::Kept(piece) = draw.assemble(0) else { panic!() };
+    let flags = |d: f64| draw.displace(&piece.data[0], (d / 8.0 * 65535.0 * 256.0) as u32)[displaced::FLAGS];
     // z0 = 1/16.
     assert_eq!(
         [0.0, 3.9, 3.95, 3.99, 4.0, 8.0].map(flags),
@@ -529,6 +533,6 @@ fn vertices_beyond_the_eye_are_flagged() {
         &FORMAT,
     )
     .unwrap();
-    let Assembled::Kept(pieces) = side.assemble(0) else { panic!() };
-    assert_eq!(side.displace(&pieces[0].data[0], 65535 << 8)[displaced::FLAGS], flag::RANGE);
+    let Assembled::Kept(piece) = side.assemble(0) else { panic!() };
+    assert_eq!(side.displace(&piece.data[0], 65535 << 8)[displaced::FLAGS], flag::RANGE);
 }

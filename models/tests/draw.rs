@@ -158,8 +158,8 @@ fn copies_of_a_vertex_are_equal_but_for_texels() {
     let draw = Draw::new(&camera(), &vertices, &[[0, 1, 2], [4, 3, 5]], &MAP, [0.0, 0.1], &FORMAT).unwrap();
     let [Assembled::Kept(a), Assembled::Kept(b)] = [draw.assemble(0), draw.assemble(1)] else { panic!() };
     for (k, l) in [(0, 1), (1, 0)] {
-        let (one, other) = (a[0].data[k], b[0].data[l]);
-        assert_eq!(a[0].corners[k], b[0].corners[l]);
+        let (one, other) = (a.data[k], b.data[l]);
+        assert_eq!(a.corners[k], b.corners[l]);
         assert_eq!(one[..lane::U], other[..lane::U]);
         assert_eq!(one[lane::DENSITY], other[lane::DENSITY]);
         assert_ne!(one[lane::U], other[lane::U]);
@@ -196,8 +196,8 @@ fn filter_level_footprint_matches_f64() {
             |x, y| DrawVertex { position: DVec3::new(size * x, z, size * y), normal: DVec3::Y, uv: DVec2::new(x, y) };
         let vertices = [corner(0.0, 0.0), corner(0.5, 0.0), corner(0.0, 0.5)];
         let draw = Draw::new(&camera, &vertices, &[[0, 1, 2]], &MAP, [0.0, 0.1], &FORMAT).unwrap();
-        let Assembled::Kept(pieces) = draw.assemble(0) else { panic!() };
-        let v = &pieces[0].data[0];
+        let Assembled::Kept(piece) = draw.assemble(0) else { panic!() };
+        let v = &piece.data[0];
         let inverse = relief_models::perspective_correct::inverse(v[lane::C]);
         let f = f64::from(filter_level::footprint(&draw.level, v[lane::DENSITY], inverse)) / 65536.0;
         let pixel = 2.0 * (camera.fov_y / 2.0).tan() / 480.0;
@@ -220,9 +220,9 @@ fn world_is_where_displacement_leads() {
         let normal = random.direction();
         let vertices = [0; 3].map(|_| DrawVertex { normal, ..vertex(random.direction() * 0.5) });
         let draw = Draw::new(&camera, &vertices, &[[0, 1, 2]], &MAP, [-0.1, 0.3], &FORMAT).unwrap();
-        let Assembled::Kept(pieces) = draw.assemble(0) else { continue };
+        let Assembled::Kept(piece) = draw.assemble(0) else { continue };
         let h = random.unit();
-        let moved = draw.displace(&pieces[0].data[0], (h * 65535.0 * 256.0) as u32);
+        let moved = draw.displace(&piece.data[0], (h * 65535.0 * 256.0) as u32);
         let want = vertices[0].position + (0.4 * h - 0.1) * normal;
         assert_eq!(moved[displaced::FLAGS], 0);
         worst = worst.max((draw.world(&moved) - want).length());
@@ -361,9 +361,32 @@ fn draw_drops_what_the_grid_cannot_hold() {
     let deep = [DVec3::new(-0.5, 2.0, 0.0), DVec3::new(1.0, 10.0, 0.0), DVec3::new(0.0, 30.0, 1.0)];
     let draw = Draw::new(&camera, &deep.map(vertex), &[[0, 1, 2]], &MAP, [0.0, 0.1], &FORMAT).unwrap();
     assert!(draw.transform.grid_bias > 0);
-    let Assembled::Kept(pieces) = draw.assemble(0) else { panic!("{:?} {:?}", draw.assemble(0), draw.transform) };
-    pieces[0].validate(&FORMAT).unwrap();
-    assert!(pieces[0].corners[2][2] >= 8190, "{:?}", pieces[0].corners);
+    let Assembled::Kept(piece) = draw.assemble(0) else { panic!("{:?} {:?}", draw.assemble(0), draw.transform) };
+    piece.validate(&FORMAT).unwrap();
+    assert!(piece.corners[2][2] >= 8190, "{:?}", piece.corners);
+}
+
+/// The host warns with this near plane: it has to be one that closes the seams, and not much more than that.
+#[test]
+fn exact_seams_begin_at_the_near_plane_that_is_told() {
+    let seams = |near: f64, camera: &CameraView| {
+        let camera = CameraView { near, ..*camera };
+        let vertices = CORNERS.map(|corner| DrawVertex { uv: DVec2::ONE, ..vertex(corner) });
+        let draw = Draw::new(&camera, &vertices, &[[0, 1, 2]], &MAP, [0.0, 0.01], &FORMAT).unwrap();
+        (draw.seams_are_exact(), draw.exact_seams_near())
+    };
+    let (mut random, mut checked) = (Random(91), 0);
+    for _ in 0..200 {
+        let camera = CameraView { eye: random.direction() * random.between(0.0, 3.0), ..camera() };
+        let (exact, near) = seams(1e-4, &camera);
+        assert_eq!(exact, near < 1e-4, "{near}");
+        // Not where everything is behind the eye.
+        if !exact {
+            assert!(seams(near, &camera).0 && !seams(0.995 * near, &camera).0, "{camera:?} {near}");
+            checked += 1;
+        }
+    }
+    assert!(checked > 50, "{checked}");
 }
 
 /// Any number, often of a size that hurts.
@@ -397,20 +420,18 @@ proptest! {
         if let Ok(mut draw) = Draw::new(&camera, &vertices, &[[0, 1, 2]], &map, reach, &FORMAT) {
             for cull in [true, false] {
                 draw.cull = cull;
-                if let Assembled::Kept(pieces) = draw.assemble(0) {
-                    for piece in pieces {
-                        piece.validate(&FORMAT).unwrap();
-                        let lights = [draw.light(DVec3::Z).unwrap()];
-                        for v in piece.data {
-                            let request = draw.request(&v);
-                            prop_assert!((request.u >> 16) < 8192 && (request.v >> 16) < 8192);
-                            prop_assert!((request.u >> 16) < width as u32 && (request.v >> 16) < rows as u32);
-                            prop_assert!(request.level < levels as u32);
-                        }
-                        let moved = piece.data.map(|v| draw.displace(&v, height));
-                        prop_assert!(moved.iter().flatten().all(|x| i32::try_from(*x).is_ok()));
-                        draw.shade(moved, &lights);
+                for piece in draw.assemble(0).pieces() {
+                    piece.validate(&FORMAT).unwrap();
+                    let lights = [draw.light(DVec3::Z).unwrap()];
+                    for v in piece.data {
+                        let request = draw.request(&v);
+                        prop_assert!((request.u >> 16) < 8192 && (request.v >> 16) < 8192);
+                        prop_assert!((request.u >> 16) < width as u32 && (request.v >> 16) < rows as u32);
+                        prop_assert!(request.level < levels as u32);
                     }
+                    let moved = piece.data.map(|v| draw.displace(&v, height));
+                    prop_assert!(moved.iter().flatten().all(|x| i32::try_from(*x).is_ok()));
+                    draw.shade(moved, &lights);
                 }
             }
         }

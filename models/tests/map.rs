@@ -3,7 +3,8 @@
 
 use image::{DynamicImage, ImageFormat};
 use proptest::prelude::*;
-use relief_models::map::{HeightMap, MEMORY_WORDS, Procedural, Wrap, levels, read, read_from, words};
+use relief_models::map::{HeightMap, Limit, Procedural, Wrap, bank_words, levels, read, read_from};
+use relief_models::mip_build::{Centring, Extremum, golden};
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
@@ -16,22 +17,27 @@ fn grey16(width: u32, height: u32) -> Vec<u8> {
 }
 
 fn refusal(bytes: &[u8]) -> String {
-    read_from(bytes, "map.png", MEMORY_WORDS).unwrap_err().to_string()
+    read_from(bytes, "map.png", &fits).unwrap_err().to_string()
+}
+
+/// Whether the default memory holds a map that is clamped.
+fn fits(size: [usize; 2]) -> Result<(), String> {
+    Limit::DEFAULT.check(size, [Wrap::Clamp; 2])
 }
 
 #[test]
 fn map_16_bit_grey_is_taken_as_it_is() {
-    let (map, warning) = read_from(&grey16(5, 3), "map.png", 15).unwrap();
+    let (map, warning) = read_from(&grey16(5, 3), "map.png", &fits).unwrap();
     assert_eq!((map.width, map.height, warning), (5, 3, None));
     assert_eq!(map.samples.len(), 15);
     assert_eq!([map.sample(0, 0), map.sample(4, 0), map.sample(1, 2)], [0, 4 * 4099, 4099 + 2 * 257]);
-    assert_eq!(read_from(&grey16(1, 1), "map.png", 1).unwrap().0.samples, [0]);
+    assert_eq!(read_from(&grey16(1, 1), "map.png", &fits).unwrap().0.samples, [0]);
 }
 
 #[test]
 fn map_8_bit_grey_is_scaled_with_a_warning() {
     let bytes = png(image::GrayImage::from_vec(2, 2, vec![0, 1, 128, 255]).unwrap());
-    let (map, warning) = read_from(&bytes, "map.png", 4).unwrap();
+    let (map, warning) = read_from(&bytes, "map.png", &fits).unwrap();
     assert_eq!(map.samples, [0, 257, 128 * 257, 65535]);
     let expected = "has 8 bits a sample, so 256 heights with steps of 257 in 65535; 16-bit grey is smooth";
     assert_eq!(warning.as_deref(), Some(expected));
@@ -50,23 +56,27 @@ fn map_refuses_what_is_no_map() {
     let mut empty = grey16(1, 1);
     empty[16..24].fill(0);
     assert_eq!(refusal(&empty), "map.png: is a map of 0 x 0 samples; at least 1 x 1 is expected");
-    let limit = "map.png: is a map of 1025 x 512 = 524800 samples, beyond the limit of the map memory, 524288 words";
+    let limit = "map.png: is a map of 1025 x 512 samples and takes 175794 words in each of the four banks of the map memory, \
+                 with its levels, beyond the limit of 131072; a smaller map is expected";
     assert_eq!(refusal(&grey16(1025, 512)), limit);
+    let side =
+        "map.png: is a map of 1 x 2048 samples and has a side beyond the limit of 2047; a smaller map is expected";
+    assert_eq!(refusal(&grey16(1, 2048)), side);
     // A header that promises 2^62 samples costs nothing.
     let mut vast = grey16(1, 1);
     vast[16..24].fill(0x7F);
-    assert!(refusal(&vast).contains("beyond the limit of the map memory"), "{}", refusal(&vast));
+    assert!(refusal(&vast).contains("beyond the limit of 2047"), "{}", refusal(&vast));
 }
 
 #[test]
 fn map_files_that_are_none() {
     let folder = tempfile::tempdir().unwrap();
-    let missing = read(&folder.path().join("none.png"), 9).unwrap_err();
+    let missing = read(&folder.path().join("none.png"), &fits).unwrap_err();
     assert!(missing.message.starts_with("cannot be opened: "), "{missing}");
-    assert_eq!(read(folder.path(), 9).unwrap_err().message, "is a folder; a PNG file is expected");
+    assert_eq!(read(folder.path(), &fits).unwrap_err().message, "is a folder; a PNG file is expected");
     let path = folder.path().join("map.png");
     std::fs::write(&path, grey16(3, 3)).unwrap();
-    assert_eq!(read(&path, 9).unwrap().0.samples.len(), 9);
+    assert_eq!(read(&path, &fits).unwrap().0.samples.len(), 9);
 }
 
 #[test]
@@ -129,9 +139,27 @@ fn map_levels_and_words() {
     assert_eq!(levels([12, 9], [Repeat, Clamp]), [[12, 9], [6, 5]]);
     // Two samples of a clamp axis stay two.
     assert_eq!(levels([2, 2], [Clamp, Clamp]), [[2, 2]]);
-    assert_eq!(words([512, 257], [Repeat, Clamp]), 175_784);
-    assert_eq!(words([403, 344], [Clamp, Clamp]), 185_618);
-    assert!(words([626, 626], [Clamp, Clamp]) <= MEMORY_WORDS && words([627, 627], [Clamp, Clamp]) > MEMORY_WORDS);
+    for (size, wrap) in [([403, 344], [Clamp, Clamp]), ([512, 257], [Repeat, Clamp]), ([7, 1], [Clamp, Clamp])] {
+        let (samples, count) = (vec![0; size[0] * size[1]], levels(size, wrap).len());
+        let pyramid = golden(size[0], size[1], &samples, Centring::Node, wrap, Extremum::Max, count).unwrap();
+        assert_eq!(bank_words(size, wrap), pyramid.bank_words() as u64, "{size:?}");
+    }
+    assert!(bank_words([625, 625], [Clamp, Clamp]) <= 131_072 && bank_words([626, 626], [Clamp, Clamp]) > 131_072);
+    // What fits the memory fits the builder's, too, which holds level 1.
+    for (width, height) in (1..200).flat_map(|w| [(w * 10, 1), (w * 10, 2_621_440 / (w * 200)), (w, w * 10), (w, w)]) {
+        for wrap in [[Clamp, Clamp], [Repeat, Clamp], [Repeat, Repeat]] {
+            if Limit::DEFAULT.check([width, height], wrap).is_ok()
+                && let Some([w, h]) = levels([width, height], wrap).get(1)
+            {
+                assert!(w * h <= 131_072, "{width} x {height}");
+            }
+        }
+    }
+}
+
+/// At most 64 samples.
+fn small([width, height]: [usize; 2]) -> Result<(), String> {
+    if width.saturating_mul(height) <= 64 { Ok(()) } else { Err("is too large for a test".into()) }
 }
 
 proptest! {
@@ -141,7 +169,7 @@ proptest! {
     fn map_reader_survives_any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..200), good_head in 0usize..40) {
         let good = grey16(3, 2);
         for head in [&[][..], &good[..good_head.min(good.len())]] {
-            if let Err(error) = read_from(&[head, &bytes].concat(), "map.png", 64) {
+            if let Err(error) = read_from(&[head, &bytes].concat(), "map.png", &small) {
                 prop_assert!(error.message.len() > 20, "{}", error);
             }
         }
@@ -162,7 +190,7 @@ proptest! {
                 _ => bytes.truncate(place),
             }
         }
-        match read_from(&bytes, "map.png", 64) {
+        match read_from(&bytes, "map.png", &small) {
             Ok((map, _)) => prop_assert_eq!(map.samples.len(), map.width * map.height),
             Err(error) => prop_assert!(error.message.len() > 20, "{}", error),
         }
@@ -171,8 +199,8 @@ proptest! {
     #[test]
     fn map_reader_refuses_every_truncation(length in any::<prop::sample::Index>()) {
         let bytes = grey16(9, 7);
-        let whole = read_from(&bytes, "map.png", 64).unwrap().0;
-        match read_from(&bytes[..length.index(bytes.len())], "map.png", 64) {
+        let whole = read_from(&bytes, "map.png", &small).unwrap().0;
+        match read_from(&bytes[..length.index(bytes.len())], "map.png", &small) {
             // Only what follows the samples may be missing.
             Ok((map, _)) => prop_assert_eq!(map, whole),
             Err(error) => prop_assert!(error.message.contains("expected"), "{}", error),

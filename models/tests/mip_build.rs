@@ -100,6 +100,36 @@ fn mip_build_poles_are_one_value_at_every_level() {
     }
 }
 
+/// What the builder in hardware rests on: with poles, every level is the one without, its pole rows replaced by their
+/// extremum. The golden model replaces level by level, and builds on what it has replaced.
+#[test]
+fn mip_build_poles_only_replace_what_is_sent() {
+    let mut replaced = 0;
+    for (width, height) in (1..=8).flat_map(|w| (1..=40).map(move |h| (w, h))) {
+        let map = random_map(width * height, (100 * width + height) as u64);
+        let all = wraps(width, height).into_iter().filter(|wrap| wrap[1] == Wrap::Clamp);
+        for (wrap, centring) in all.flat_map(|wrap| [Centring::Node, Centring::Cell].map(|centring| (wrap, centring))) {
+            let levels = max_levels(width, height, centring, wrap);
+            for extremum in [Extremum::Max, Extremum::Min] {
+                let mut plain = golden(width, height, &map, centring, wrap, extremum, levels).unwrap();
+                let poles = golden_with_poles(width, height, &map, centring, wrap, extremum, levels).unwrap();
+                for (number, level) in plain.levels.iter_mut().enumerate() {
+                    let first = (height - 1) >> number;
+                    let rows = if first == 0 { vec![0..level.height] } else { vec![0..1, first..level.height] };
+                    for rows in rows {
+                        let samples = &mut level.samples[rows.start * level.width..rows.end * level.width];
+                        let pole = samples.iter().copied().reduce(|a, b| extremum.of(a, b)).unwrap();
+                        samples.fill(pole);
+                        replaced += samples.len();
+                    }
+                }
+                assert!(plain == poles, "{width} x {height} {centring:?} {wrap:?}");
+            }
+        }
+    }
+    assert!(replaced > 40_000, "{replaced}");
+}
+
 /// Texel columns or rows `side` of level 0 that the two cells round point `u` (in 2^-`fraction` texels) of a level cover.
 fn cell_taps(u: i64, fraction: u32, level: usize, side: usize) -> [usize; 2] {
     // Cell i of level L is centred on texel 2^L i + (2^L - 1) / 2.

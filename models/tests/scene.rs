@@ -106,8 +106,37 @@ fn scene_refuses_unknown_fields_by_name() {
         ("size = [2.0", "sizes = [2.0", "scene.toml:7: unknown field `sizes`, expected one of `kind`, `cells`, "),
         ("\"grid\"", "\"gird\"", "scene.toml:7: unknown variant `gird`, expected one of `grid`, `cylinder`, `sphere`"),
         ("\"ramp\"", "\"lamp\"", "scene.toml:8: unknown variant `lamp`, expected one of `half_donut`, `peaks`, "),
-        ("-3.2", "\"a\"", "scene.toml:3: invalid type: string \"a\", expected f64"),
-        ("eye =", "target =", "scene.toml:4: duplicate key"),
+        ("-3.2", "\"a\"", "scene.toml:3: [camera] `eye` is the string \"a\"; a number is expected"),
+        (
+            "[4, 4]",
+            "[4, 4.5]",
+            "scene.toml:7: [[object]] 1: `mesh.cells` is the floating point `4.5`; an integer is expected",
+        ),
+        ("1.6]", "1.6, 7]", "scene.toml:3: [camera] `eye` has 4 values; 3 are expected"),
+        ("[0, 0, 0.1]", "[0]", "scene.toml:4: [camera] `target` has 1 value; 3 are expected"),
+        ("[0.0, -3.2, 1.6]", "[0.0, -3.2]", "scene.toml:3: [camera] `eye` has 2 values; 3 are expected"),
+        ("[4, 4]", "[4, 4, 4, 4]", "scene.toml:7: [[object]] 1: `mesh.cells` has 4 values; 2 are expected"),
+        ("0.35]", "0.35, 1]", "scene.toml:9: [[object]] 1: `displacement` has 3 values; 2 are expected"),
+        (
+            "[0.0, 0.35]",
+            "true",
+            "scene.toml:9: [[object]] 1: `displacement` is the boolean `true`; an array of 2 values",
+        ),
+        ("[[object]]", "[object]", "scene.toml:6: `object` is a table; [[object]], in double brackets, is expected"),
+        ("[camera]", "[[camera]]", "scene.toml:2: `camera` is a list; [camera], in single brackets, is expected"),
+        ("[[object]]", "remesh = 3\n[[object]]", "scene.toml:6: unknown field `remesh`, expected one of"),
+        ("[[object]]", "[remesh]\ncull = 1\n[[object]]", "scene.toml:7: [remesh] `cull` is the integer `1`; a boolean"),
+        (
+            "1.7]",
+            "99999999999999999999999]",
+            "scene.toml:7: [[object]] 1: `mesh.size` is the integer `99999999999999999999999`; a",
+        ),
+        (
+            "[[object]]",
+            "[[light]]\ndirection = [1, 2, 3, 4]\n[[object]]",
+            "scene.toml:7: [[light]] 1: `direction` has 4 values",
+        ),
+        ("eye =", "target =", "scene.toml:4: `target` is there twice; once is expected"),
         ("eye = [0.0, -3.2, 1.6]\n", "", "scene.toml:2: missing field `eye`"),
         ("1.6]", "1.6", "scene.toml:4: "),
     ];
@@ -124,7 +153,7 @@ fn scene_refuses_bad_cameras() {
     let cases = [
         ("-3.2", "nan", format!("`eye` is NaN; {finite}")),
         ("-3.2", "-inf", format!("`eye` is -inf; {finite}")),
-        ("0.1]", "1e300]", format!("`target` is 1{}; {finite}", "0".repeat(300))),
+        ("0.1]", "1e300]", format!("`target` is 1e300; {finite}")),
         (
             "[0, 0, 0.1]",
             "[0, -3.2, 1.6]",
@@ -169,7 +198,7 @@ fn scene_refuses_bad_cameras() {
     let far = scene(&SCENE.replace("target =", "near = 0.001\nfar = 20\ntarget ="));
     assert_eq!(far.warnings.len(), 1);
     assert!(
-        far.warnings[0].starts_with("[camera] `far` is 20000 times `near`; beyond 10000 times"),
+        far.warnings[0].starts_with("scene.toml:2: [camera] `far` is 20000 times `near`; beyond 10000 times"),
         "{:?}",
         far.warnings
     );
@@ -178,12 +207,12 @@ fn scene_refuses_bad_cameras() {
 #[test]
 fn scene_refuses_bad_settings_and_lights() {
     let cell = |value: &str| refusal(&format!("{SCENE}\n[remesh]\ncell_px = {value}"));
-    assert_eq!(cell("0"), "scene.toml: [remesh] `cell_px` is 0; a number from 1 to 64 is expected");
-    assert_eq!(cell("nan"), "scene.toml: [remesh] `cell_px` is NaN; a finite number from -1e9 to 1e9 is expected");
+    assert_eq!(cell("0"), "scene.toml:11: [remesh] `cell_px` is 0; a number from 1 to 64 is expected");
+    assert_eq!(cell("nan"), "scene.toml:11: [remesh] `cell_px` is NaN; a finite number from -1e9 to 1e9 is expected");
     let light = refusal(&format!("{SCENE}\n[[light]]\ndirection = [0, 0, 1]\n[[light]]\ndirection = [0, 0, 0]"));
     assert_eq!(
         light,
-        "scene.toml: [[light]] 2: `direction` is [0, 0, 0]; a direction, of any length but 0, is expected"
+        "scene.toml:13: [[light]] 2: `direction` is [0, 0, 0]; a direction, of any length but 0, is expected"
     );
     let many = "[[light]]\ndirection = [0, 0, 1]\n".repeat(65);
     assert_eq!(refusal(&format!("{SCENE}\n{many}")), "scene.toml: has 65 [[light]] entries, beyond the limit of 64");
@@ -218,24 +247,23 @@ fn scene_refuses_bad_objects() {
         (
             "[8, 8]",
             "[8, 0]",
-            "the second number of `size` is 0; a number from 1 to 524288 is expected (524288 is the words of the map memory)",
+            "the second number of `size` is 0; a number from 1 to 2047 is expected (2047 is the limit of a map's side)",
         ),
         (
             "[8, 8]",
-            "[1024, 513]",
-            "the map ramp of 1024 x 513 samples is beyond the limit of 524288 words of the map memory; a smaller one is \
-             expected",
+            "[8, 2048]",
+            "the second number of `size` is 2048; a number from 1 to 2047 is expected (2047 is the limit of a map's side)",
         ),
         (
             "[8, 8]",
-            "[700, 700]",
-            "the map ramp of 700 x 700 samples takes 654874 words with its levels and is beyond the limit of 524288 words \
-             of the map memory; a smaller one is expected",
+            "[626, 626]",
+            "the map ramp of 626 x 626 samples takes 131075 words in each of the four banks of the map memory, with its \
+             levels, beyond the limit of 131072; a smaller map is expected",
         ),
         (
             "[8, 8] }",
             "[8, 7] }\nwrap = [\"repeat\", \"repeat\"]",
-            "the map ramp repeats in v with a period of 7 samples, which is odd; an even number, or better a power of \
+            "the map ramp of 8 x 7 samples repeats in v with a period of 7 samples, which is odd; an even number, or better a power of \
              two, is expected",
         ),
         (

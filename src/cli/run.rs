@@ -2,7 +2,6 @@
 //! `relief run`: a scene through the pipeline, to pictures, a mesh, a waveform, Verilog and a report.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -12,8 +11,8 @@ use relief_models::mesh::Progress;
 use relief_models::scene;
 use relief_testbench::binding::find;
 use relief_testbench::check::{self, emission};
-use relief_testbench::frame::{Report, render};
-use relief_testbench::output::{OutputFile, OutputFolder};
+use relief_testbench::frame::{Report, prepare, render};
+use relief_testbench::output::{MadeFolder, OutputFile, OutputFolder};
 use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
 
 use super::{Meter, Outcome, Result, write_all};
@@ -21,7 +20,7 @@ use super::{Meter, Outcome, Result, write_all};
 /// Take a scene with a height map through the displacement pipeline
 ///
 /// Base triangles go through transform, culling, remesher, level choice, height fetch, displacement, strip unit, light and
-/// rasteriser. Remesher, height fetch and strip unit run as hardware, and every beat of them is compared with its golden
+/// rasteriser. The builder of filter levels, remesher, height fetch and strip unit run as hardware, and every beat of them is compared with its golden
 /// model; the report says which stages are golden. docs/scene.md tells what a scene file holds.
 #[derive(clap::Args)]
 pub struct Arguments {
@@ -50,31 +49,25 @@ const WAVEFORM: u64 = 400;
 
 /// Reads, draws and writes.
 pub fn run(arguments: &Arguments) -> Result {
-    let outcome = draw(arguments);
-    if outcome.is_err() {
-        // Folders that were made for nothing.
-        let _ = fs::remove_dir(arguments.out.join("rtl")).and_then(|()| fs::remove_dir(&arguments.out));
-    }
-    outcome
-}
-
-fn draw(arguments: &Arguments) -> Result {
     let begun = Instant::now();
     let scene = scene::read(&arguments.scene)?;
-    for warning in &scene.warnings {
+    let set = &WIDTH_SETS[0];
+    let prepared = prepare(&scene, set)?;
+    let mut warnings: Vec<String> = scene.warnings.iter().chain(&prepared.warnings).cloned().collect();
+    for warning in &warnings {
         write_all(stderr(), &format!("warning: {warning}\n"))?;
     }
-    let verilator = match arguments.engine {
-        Engine::Rust => false,
-        Engine::Auto => check::Engine::Verilator.missing().is_none(),
-        Engine::Verilator => match check::Engine::Verilator.missing() {
-            Some(missing) => return Err(missing.into()),
-            None => true,
-        },
+    let engine = match arguments.engine {
+        Engine::Auto if check::Engine::Verilator.missing().is_none() => Engine::Verilator,
+        Engine::Auto => Engine::Rust,
+        engine => engine,
     };
-    // Every output is opened before the work.
+    if let (Engine::Verilator, Some(missing)) = (engine, check::Engine::Verilator.missing()) {
+        return Err(missing.into());
+    }
+    // Every output is opened before the work. Folders that turn out to be made for nothing go last.
     let out = &arguments.out;
-    fs::create_dir_all(out).map_err(|error| format!("{}: the folder cannot be made: {error}", out.display()))?;
+    let _made = MadeFolder::open(&out.join("rtl"))?;
     let open = |name: &str| OutputFile::open(&out.join(name));
     let files = [open("frame.png")?, open("mesh.png")?, open("report.json")?];
     let mesh = open("mesh.obj")?;
@@ -82,25 +75,29 @@ fn draw(arguments: &Arguments) -> Result {
     let rtl = BLOCKS.map(|name| OutputFolder::open(&out.join("rtl").join(name)));
     let rtl = rtl.into_iter().collect::<std::result::Result<Vec<_>, _>>()?;
 
-    let set = &WIDTH_SETS[0];
     let meter = Meter::new();
     let mut pipeline = Pipeline::new(set);
     let folder = tempfile::tempdir()?;
-    if verilator {
+    if engine == Engine::Verilator {
         meter.phase("building", 0);
         pipeline.follow(folder.path())?;
     }
     let recording = PipelineRecording::new(&pipeline, &out.join("pipeline.vcd"), 0..WAVEFORM)?;
-    let rendered = render(&scene, set, &mut pipeline, Some(recording), &mut obj, &meter);
+    let rendered = render(&prepared, &mut pipeline, Some(recording), &mut obj, &meter);
     meter.finish();
-    let (rendered, recording) = match rendered {
+    let (mut rendered, recording) = match rendered {
         Ok(rendered) => rendered,
         Err(error) if error.is_mismatch() => {
-            write_all(stderr(), &format!("mismatch: {error}\n"))?;
+            write_all(stderr(), &format!("mismatch: {error}; nothing was written\n"))?;
             return Ok(Outcome::Mismatch);
         }
-        Err(error) => return Err(format!("{}: {error}", arguments.scene.display()).into()),
+        Err(error) => return Err(error.into()),
     };
+    for warning in surprises(&rendered.report, scene.remesh.cull) {
+        let warning = format!("{}: {warning}", arguments.scene.display());
+        write_all(stderr(), &format!("warning: {warning}\n"))?;
+        warnings.push(warning);
+    }
 
     let stale = |name: &str| name.starts_with("relief_");
     for (name, folder) in BLOCKS.into_iter().zip(rtl) {
@@ -111,6 +108,10 @@ fn draw(arguments: &Arguments) -> Result {
     if let Some(recording) = recording {
         recording.finish()?;
     }
+    rendered.report.scene = arguments.scene.display().to_string();
+    rendered.report.engine = if engine == Engine::Verilator { "verilator" } else { "rust" };
+    rendered.report.warnings = warnings;
+    rendered.report.seconds = begun.elapsed().as_secs_f64();
     let json = serde_json::to_string_pretty(&rendered.report)? + "\n";
     std::io::Write::flush(&mut obj)?;
     mesh.commit()?;
@@ -123,16 +124,29 @@ fn draw(arguments: &Arguments) -> Result {
     Ok(Outcome::Agreed)
 }
 
+/// What only the work could tell.
+fn surprises(report: &Report, cull: bool) -> Vec<String> {
+    let mut surprises = Vec::new();
+    if report.pixels == 0 && report.assembled.kept > 0 {
+        surprises.push("no pixel shows anything of it".to_owned());
+    }
+    let lost = report.invalid_triangles;
+    if !cull && lost > 0 {
+        let what = format!("{lost} triangles reach to the eye or behind it, so the mesh is open there");
+        surprises.push(format!("{what}; an `eye` farther away, or less `displacement`, keeps them"));
+    }
+    surprises
+}
+
 fn table(report: &Report, seconds: f64, out: &Path) -> String {
     let counts = &report.pipeline;
-    let part = |a: u64, b: u64| if b == 0 { 0.0 } else { a as f64 / b as f64 };
-    let culled: u64 = report.assembled.culled.iter().sum();
-    let dropped: u64 = report.assembled.dropped.iter().sum();
+    let assembled = &report.assembled;
+    let (culled, cut, dropped) = (assembled.culled.total(), assembled.cut, assembled.dropped.total());
     let mut text = String::new();
     let mut row = |name: &str, value: String| {
         let _ = writeln!(text, "{name:26} {value}");
     };
-    row("base triangles", format!("{} ({culled} culled, {dropped} dropped)", report.base_triangles));
+    row("base triangles", format!("{} ({culled} culled, {cut} cut, {dropped} dropped)", report.base_triangles));
     row(
         "triangles",
         format!(
@@ -140,14 +154,12 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
             counts.triangles, report.invalid_triangles, report.collapsed_triangles
         ),
     );
-    row(
-        "vertices displaced",
-        format!("{} ({:.3} a triangle)", counts.vertices, part(counts.vertices, counts.triangles)),
-    );
-    let two = 2.0 * part(counts.cycles, counts.triangles);
+    row("vertices displaced", format!("{} ({:.3} a triangle)", counts.vertices, report.vertices_per_triangle));
+    let two = report.cycles_per_two_triangles;
     row("cycles", format!("{} ({two:.3} for two triangles)", counts.cycles));
     row("  of them waiting", format!("{} for vertices, {} for set-up", counts.stalled, counts.silent));
-    row("cycles to load the map", counts.load_cycles.to_string());
+    row("cycles to build levels", counts.build_cycles.to_string());
+    row("cycles to load them", counts.load_cycles.to_string());
     row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
     for block in &report.hardware {
         let behind = match block.followed_cycles {

@@ -56,9 +56,7 @@ impl Method for Uniform {
         }
         let begun = Instant::now();
         let mesh = match goal {
-            Goal::Triangles(most) => {
-                with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?
-            }
+            Goal::Triangles(most) => with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?,
             Goal::Bound(bound) => {
                 let bound = f64::from(bound.over()) / f64::from(bound.under());
                 coarsest(map, bound, |step| Ok(with_step(map, step)?))?

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The waveform of the pipeline's blocks, side by side in one file.
+//! The waveform of the blocks that draw, side by side in one file.
 
 use super::unit::Unit;
-use super::{BLOCKS, Pipeline};
+use super::{DRAW, Pipeline};
 use crate::output::OutputFile;
 use crate::probe::BlockProbe;
 use relief_waves::record::RecordError;
@@ -29,11 +29,9 @@ impl PipelineRecording {
     /// # Errors
     /// The file cannot be written.
     pub fn new(pipeline: &Pipeline, path: &Path, window: Range<u64>) -> Result<Self, Box<dyn Error>> {
-        let probes = pipeline
-            .units
+        let probes = pipeline.units[DRAW]
             .iter()
-            .zip(BLOCKS)
-            .map(|(unit, name)| BlockProbe::new(name, unit.stage.device.block()))
+            .map(|unit| BlockProbe::new(unit.name, unit.stage.device.block()))
             .collect::<Result<Vec<_>, _>>()?;
         let items = probes.iter().map(|probe| Item::Scope(probe.tree().root().clone())).collect();
         let tree = SignalTree::new(Scope { name: "relief".into(), items })?;
@@ -42,7 +40,7 @@ impl PipelineRecording {
         Ok(Self { probes, recorder, words: Vec::new(), path: path.into(), wave, save })
     }
 
-    pub(super) fn sample(&mut self, units: &[Unit; 3], cycle: u64) -> Result<(), RecordError> {
+    pub(super) fn sample(&mut self, units: &[Unit], cycle: u64) -> Result<(), RecordError> {
         if !self.recorder.wants(cycle) {
             return Ok(());
         }

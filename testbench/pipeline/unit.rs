@@ -102,3 +102,57 @@ impl Unit {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::binding::find;
+    use relief_hdl::widths::WIDTH_SETS;
+
+    /// A golden model with a bit wrong in one beat.
+    struct Lying {
+        model: Box<dyn Model>,
+        beats: u64,
+    }
+
+    impl Model for Lying {
+        fn accept(&mut self, beat: &Beat, expected: &mut Vec<Expected>) {
+            let first = expected.len();
+            self.model.accept(beat, expected);
+            for beat in &mut expected[first..] {
+                beat.words[0] ^= u64::from(self.beats == 2) << 4;
+                self.beats += 1;
+            }
+        }
+    }
+
+    /// The first difference ends the run, with block, beat, cycle, port and both values.
+    #[test]
+    fn unit_names_block_beat_port_and_both_values() {
+        let set = &WIDTH_SETS[0];
+        let binding = find("vertex_adder").unwrap();
+        let mut unit = Unit::new(binding, set);
+        unit.model = Box::new(Lying { model: binding.model(set), beats: 0 });
+        let mut beats = binding.random(set, 1);
+        let mut outcome = Ok(());
+        for _ in 0..20 {
+            if !unit.offers() {
+                unit.offer(&beats.next().unwrap());
+            }
+            unit.settle();
+            outcome = unit.finish(&mut None);
+            if outcome.is_err() {
+                break;
+            }
+            unit.edge();
+        }
+        let error = outcome.unwrap_err();
+        let PipelineError::Mismatch { block: "vertex_adder", mismatch } = &error else { panic!("{error}") };
+        assert_eq!((mismatch.beat, unit.compared), (2, 2));
+        assert_ne!(mismatch.expected, mismatch.got);
+        let Mismatch { cycle, port, expected, got, .. } = mismatch;
+        let sentence = format!("beat 2, cycle {cycle}, port {port}: expected {expected}, got {got}");
+        assert_eq!(error.to_string(), format!("vertex_adder differs from its golden model: {sentence}"));
+        assert!(error.is_mismatch() && got.starts_with("0x"), "{error}");
+    }
+}

@@ -81,6 +81,26 @@ fn remesher_tiles_random_triangles() {
     assert_eq!(checked, 100_000);
 }
 
+/// The host refuses scenes by this estimate: close for what takes long, and never far below.
+#[test]
+fn remesher_estimate_is_close() {
+    let mut random = Random(77);
+    let (mut sums, mut worst) = ([0u64; 2], 1.0f64);
+    for _ in 0..400 {
+        let extent = 20 + random.upto(300);
+        let base = check::base(&FORMAT, random.corners(extent, 4095));
+        let made = Run::new(&FORMAT, &base).emitted().len() as u64;
+        let estimate = base.estimate();
+        sums = [sums[0] + estimate, sums[1] + made];
+        if made > 500 {
+            worst = worst.max(made as f64 / estimate as f64);
+        }
+    }
+    let all = sums[0] as f64 / sums[1] as f64;
+    println!("estimate / triangles {all:.3}, triangles / estimate {worst:.3} at most");
+    assert!((0.97..1.05).contains(&all) && worst < 1.2, "{all} {worst}");
+}
+
 /// The base triangles on which the unamended rules fail, in each of the three planes and in all corner orders.
 #[test]
 fn remesher_tiles_the_counterexamples_of_the_amendments() {

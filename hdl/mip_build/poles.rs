@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The extrema of the rows that are poles: at every level row 0, and the rows from `last >> level` on, `last` being the
+//! last row of the map.
+//!
+//! A pole row goes into pole rows of the level above only, and an extremum does not change if some of its values become
+//! their own extremum. So the levels are folded as if there were no poles, and only what is sent is replaced: by the
+//! extremum of all texels that the pole rows cover, taken while the level below streams by.
+//!
+//! | port     | format     |   Latency 1   Interval 1   Golden: models::mip_build::golden_with_poles   Error 0
+//! | size     | Bit        | begins a map of `height` rows
+//! | advance  | Bit        | begins the next level
+//! | take     | Bit        | a texel of this level, with its place
+//! | max, min | UQ16.0     | the texel
+//! | pole_max, pole_min | UQ16.0 | what the pole of this row is; of the map itself, once it has been taken
+//! | in_pole  | Bit        | this row is one of a pole
+//! | map_last | unsigned M | the first row of the lower pole, on the map its last row
+
+use crate::prelude::*;
+
+/// Extrema of the poles, for sides below 2^M.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct MipPoles<const M: usize> {
+    pub clock: Input<ClockReset>,
+    pub size: Input<Bit>,
+    pub height: Input<U<M>>,
+    pub advance: Input<Bit>,
+    pub take: Input<Bit>,
+    pub on_map: Input<Bit>,
+    pub cells: Input<Bit>,
+    pub row: Input<U<M>>,
+    pub max: Input<U<16>>,
+    pub min: Input<U<16>>,
+    pub in_pole: Output<Bit>,
+    pub pole_max: Output<U<16>>,
+    pub pole_min: Output<U<16>>,
+    pub map_last: Output<U<M>>,
+    /// First row of the lower pole.
+    lower_row: DataRegister<U<M>>,
+    // The poles of this level, and of the next one as far as it is known.
+    upper_max: DataRegister<U<16>>,
+    upper_min: DataRegister<U<16>>,
+    lower_max: DataRegister<U<16>>,
+    lower_min: DataRegister<U<16>>,
+    next_upper_max: DataRegister<U<16>>,
+    next_upper_min: DataRegister<U<16>>,
+    next_lower_max: DataRegister<U<16>>,
+    next_lower_min: DataRegister<U<16>>,
+    in_lower: Wire<Bit>,
+    row_above: Wire<U<M>>,
+    lower_above: Wire<U<M>>,
+}
+
+impl<const M: usize> Logic for MipPoles<M> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, lower_row, upper_max, upper_min, lower_max, lower_min);
+        dff_setup!(self, clock, next_upper_max, next_upper_min, next_lower_max, next_lower_min);
+        self.map_last.next = self.lower_row.q.val();
+        // Where both poles are one row, it is the lower one's, which covers the upper one.
+        self.in_lower.next = self.row.val() >= self.lower_row.q.val();
+        self.in_pole.next = self.in_lower.val() || self.row.val() == 0;
+        self.pole_max.next = self.upper_max.q.val();
+        self.pole_min.next = self.upper_min.q.val();
+        if self.in_lower.val() {
+            self.pole_max.next = self.lower_max.q.val();
+            self.pole_min.next = self.lower_min.q.val();
+        }
+        // The last row of nodes, or the row of cells, above this row: below 2^(M-1) + 1.
+        self.row_above.next = self.row.val() >> 1;
+        if !self.cells.val() {
+            self.row_above.next = (self.row.val() + 1) >> 1;
+        }
+        self.lower_above.next = self.lower_row.q.val() >> 1;
+        if self.take.val() {
+            if self.row.val() < 2 {
+                if self.max.val() > self.next_upper_max.q.val() {
+                    self.next_upper_max.d.next = self.max.val();
+                }
+                if self.min.val() < self.next_upper_min.q.val() {
+                    self.next_upper_min.d.next = self.min.val();
+                }
+            }
+            if self.row_above.val() >= self.lower_above.val() {
+                if self.max.val() > self.next_lower_max.q.val() {
+                    self.next_lower_max.d.next = self.max.val();
+                }
+                if self.min.val() < self.next_lower_min.q.val() {
+                    self.next_lower_min.d.next = self.min.val();
+                }
+            }
+            if self.on_map.val() && self.row.val() == 0 {
+                if self.max.val() > self.upper_max.q.val() {
+                    self.upper_max.d.next = self.max.val();
+                }
+                if self.min.val() < self.upper_min.q.val() {
+                    self.upper_min.d.next = self.min.val();
+                }
+            }
+            if self.on_map.val() && self.in_lower.val() {
+                if self.max.val() > self.lower_max.q.val() {
+                    self.lower_max.d.next = self.max.val();
+                }
+                if self.min.val() < self.lower_min.q.val() {
+                    self.lower_min.d.next = self.min.val();
+                }
+            }
+        }
+        if self.advance.val() {
+            self.lower_row.d.next = self.lower_above.val();
+            self.upper_max.d.next = self.next_upper_max.q.val();
+            self.upper_min.d.next = self.next_upper_min.q.val();
+            self.lower_max.d.next = self.next_lower_max.q.val();
+            self.lower_min.d.next = self.next_lower_min.q.val();
+        }
+        if self.size.val() {
+            self.lower_row.d.next = self.height.val() - 1;
+            self.upper_max.d.next = 0.into();
+            self.upper_min.d.next = 65_535.into();
+            self.lower_max.d.next = 0.into();
+            self.lower_min.d.next = 65_535.into();
+        }
+        if self.size.val() || self.advance.val() {
+            self.next_upper_max.d.next = 0.into();
+            self.next_upper_min.d.next = 65_535.into();
+            self.next_lower_max.d.next = 0.into();
+            self.next_lower_min.d.next = 65_535.into();
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("mip_poles")
+    }
+}
+
+latches! { [const M: usize] MipPoles<M>: lower_row, upper_max, upper_min, lower_max, lower_min, next_upper_max, next_upper_min, next_lower_max, next_lower_min }

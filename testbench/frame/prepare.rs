@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is decided before any work: whether a scene fits the formats and the memory, how much will come of it, and what
+//! may surprise.
+
+use crate::remesher::format;
+use relief_hdl::widths::WidthSet;
+use relief_models::digits::{rounded_up, short};
+use relief_models::draw::{CameraView, Counts, Draw, DrawError, DrawVertex, MapInfo};
+use relief_models::light::Material;
+use relief_models::map::{self, Limit};
+use relief_models::mesh::InputError;
+use relief_models::mip_build::{BuildSize, Centring, Wrap};
+use relief_models::scene::{Entry, Object, Scene};
+
+/// Triangles beyond which a scene is refused: some minutes of work, and more than a gigabyte of mesh.
+pub const MOST_TRIANGLES: u64 = 1 << 25;
+/// Triangles that are worth a warning: half a minute.
+const MANY_TRIANGLES: u64 = 1 << 22;
+/// Triangles a second, roughly.
+const SPEED: u64 = 300_000;
+
+/// A scene that can be drawn.
+pub struct Prepared<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) objects: Vec<PreparedObject<'a>>,
+    /// About how many triangles will come of it.
+    pub triangles: u64,
+    /// What may surprise, sentence by sentence; that of the scene's reading not among it.
+    pub warnings: Vec<String>,
+}
+
+/// An object that can be drawn.
+pub(super) struct PreparedObject<'a> {
+    pub(super) object: &'a Object,
+    pub(super) size: BuildSize,
+    pub(super) draw: Draw,
+}
+
+/// Prepares a scene for a width set.
+///
+/// # Errors
+/// It does not fit, or would take too long.
+pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, InputError> {
+    let view = view_of(scene);
+    let mut prepared = Prepared { scene, objects: Vec::new(), triangles: 0, warnings: Vec::new() };
+    let mut all = Counts::default();
+    for (at, object) in scene.objects.iter().enumerate() {
+        let refuse = |problem: String| scene.source.error(Entry::Object(at), problem);
+        let name = &object.map_name;
+        let (width, height) = (object.map.width, object.map.height);
+        let limit = Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 };
+        limit
+            .check([width, height], object.wrap)
+            .map_err(|problem| refuse(format!("the map {name} of {width} x {height} samples {problem}")))?;
+        let draw = draw_of(scene, object, &view, set).map_err(|cause| match cause {
+            DrawError::Focal { .. } | DrawError::Extent { .. } => scene.source.error(Entry::Camera, cause),
+            _ => refuse(cause.to_string()),
+        })?;
+        let (counts, triangles) = amount(&draw);
+        prepared.triangles += triangles;
+        add(&mut all, &counts);
+        let warnings = warnings_of(scene, object, &draw, &counts);
+        let warnings = warnings.into_iter().map(|warning| scene.source.error(Entry::Object(at), warning).to_string());
+        prepared.warnings.extend(warnings);
+        let levels = map::levels([width, height], object.wrap).len();
+        let (wrap, poles) = (object.wrap, object.poles);
+        let size = BuildSize { width, height, wrap, centring: Centring::Node, levels, poles };
+        prepared.objects.push(PreparedObject { object, size, draw });
+    }
+    let triangles = rounded_up(prepared.triangles as f64) as u64;
+    if prepared.triangles > MOST_TRIANGLES {
+        let what =
+            format!("about {triangles} triangles would come of this scene, beyond the limit of {MOST_TRIANGLES}");
+        return Err(scene.source.error(Entry::Remesh, format!("{what}; {} is expected", remedy(scene, set))));
+    }
+    if prepared.triangles > MANY_TRIANGLES {
+        let seconds = rounded_up((prepared.triangles / SPEED) as f64) as u64;
+        let what = format!("about {triangles} triangles will come of this scene, which takes {seconds} s or so");
+        let less = "a greater `cell_px` makes it less";
+        prepared.warnings.push(scene.source.error(Entry::Remesh, format!("{what}; {less}")).to_string());
+    }
+    if all.kept == 0 {
+        let reasons = all.culled.named().into_iter().filter(|(_, count)| *count > 0);
+        let mut reasons: Vec<_> = reasons.map(|(name, count)| format!("{count} beyond the {name} side")).collect();
+        if all.dropped.near > 0 {
+            reasons.push(format!("{} nearer than `near` / 16 or behind the eye", all.dropped.near));
+        }
+        if all.dropped.lane + all.dropped.grid > 0 {
+            reasons.push(format!("{} beyond the voxel grid", all.dropped.lane + all.dropped.grid));
+        }
+        let what = format!("nothing of the scene is in view ({} of what can be seen)", reasons.join(", "));
+        let warning = format!("{what}; a `target` on an object is what shows it");
+        prepared.warnings.push(scene.source.error(Entry::Camera, warning).to_string());
+    }
+    Ok(prepared)
+}
+
+/// The camera for the host.
+fn view_of(scene: &Scene) -> CameraView {
+    let camera = &scene.camera;
+    CameraView {
+        eye: camera.eye,
+        target: camera.target,
+        up: camera.up,
+        fov_y: camera.fov_y_deg.to_radians(),
+        near: camera.near,
+        far: camera.far,
+        viewport: camera.viewport,
+        cell_px: scene.remesh.cell_px,
+    }
+}
+
+/// The draw of an object: constants and vertex memory.
+fn draw_of(scene: &Scene, object: &Object, view: &CameraView, set: &WidthSet) -> Result<Draw, DrawError> {
+    let vertices: Vec<DrawVertex> = object
+        .mesh
+        .vertices
+        .iter()
+        .map(|vertex| DrawVertex { position: vertex.position, normal: vertex.normal, uv: vertex.uv })
+        .collect();
+    let repeat = object.wrap.map(|wrap| wrap == Wrap::Repeat);
+    let (width, height) = (object.map.width, object.map.height);
+    let map = MapInfo { width, height, repeat, levels: map::levels([width, height], object.wrap).len() };
+    let mut draw = Draw::new(view, &vertices, &object.mesh.triangles, &map, object.displacement, &format(set))?;
+    draw.cull = scene.remesh.cull;
+    if let Some(colour) = object.colour {
+        draw.material = Material::plain(colour);
+    }
+    Ok(draw)
+}
+
+/// What becomes of the base triangles, and about how many triangles they become.
+fn amount(draw: &Draw) -> (Counts, u64) {
+    let (mut counts, mut triangles) = (Counts::default(), 0);
+    for index in 0..draw.triangles.len() {
+        let assembled = draw.assemble(index);
+        counts.count(&assembled);
+        triangles += assembled.pieces().iter().map(|piece| piece.estimate()).sum::<u64>();
+    }
+    (counts, triangles)
+}
+
+fn add(all: &mut Counts, counts: &Counts) {
+    let Counts { kept, culled, dropped, .. } = counts;
+    all.kept += kept;
+    all.culled.left += culled.left;
+    all.culled.right += culled.right;
+    all.culled.top += culled.top;
+    all.culled.bottom += culled.bottom;
+    all.culled.near += culled.near;
+    all.culled.far += culled.far;
+    all.dropped.near += dropped.near;
+    all.dropped.lane += dropped.lane;
+    all.dropped.grid += dropped.grid;
+}
+
+fn warnings_of(scene: &Scene, object: &Object, draw: &Draw, counts: &Counts) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let has_seam = object.poles || object.wrap.contains(&Wrap::Repeat);
+    if has_seam && !draw.seams_are_exact() {
+        let near = short(rounded_up(draw.exact_seams_near()));
+        warnings.push(format!(
+            "the seam of its map may open, because the object reaches too far away for `near` {}; a `near` of at least \
+             {near} keeps it closed",
+            short(scene.camera.near)
+        ));
+    }
+    let (all, gone) = (draw.triangles.len(), counts.cut + counts.dropped.near);
+    if !draw.cull && gone > 0 {
+        warnings.push(format!(
+            "{gone} of its {all} base triangles are cut, at `near` / 16 from the eye or 8190 pixels off the middle of the \
+             picture, so the mesh is open there; an `eye` farther away keeps them whole"
+        ));
+    }
+    let beyond = counts.dropped.lane + counts.dropped.grid;
+    if beyond > 0 {
+        warnings.push(format!(
+            "{beyond} of its {all} base triangles are left out, because the voxel grid does not reach them; a greater \
+             `cell_px` is what reaches farther"
+        ));
+    }
+    warnings
+}
+
+/// What would make a scene small enough: tried, not guessed.
+fn remedy(scene: &Scene, set: &WidthSet) -> String {
+    let view = view_of(scene);
+    let fits = |view: &CameraView| {
+        let mut triangles = 0;
+        for object in &scene.objects {
+            match draw_of(scene, object, view, set) {
+                Ok(draw) => triangles += amount(&draw).1,
+                Err(_) => return false,
+            }
+            if triangles > MOST_TRIANGLES {
+                return false;
+            }
+        }
+        true
+    };
+    let mut ways = Vec::new();
+    let cells = (1..).map(|k| view.cell_px * f64::powi(1.25, k)).take_while(|cell| *cell <= 64.0).map(rounded_up);
+    if let Some(cell_px) = cells.into_iter().find(|cell| fits(&CameraView { cell_px: *cell, ..view })) {
+        ways.push(format!("a `cell_px` of {}", short(cell_px)));
+    }
+    let farthest = (0.5 * view.far).min((view.target - view.eye).length());
+    let nears = (1..).map(|k| view.near * f64::from(1u32 << k)).take_while(|near| *near <= farthest).take(16);
+    if let Some(near) = nears.into_iter().find(|near| fits(&CameraView { near: *near, ..view })) {
+        ways.push(format!("a `near` of {}", short(near)));
+    }
+    ways.push("an `eye` farther from the surface".to_owned());
+    ways.join(", or ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use relief_hdl::widths::WIDTH_SETS;
+    use relief_models::scene::parse;
+    use std::path::Path;
+
+    /// The scene's reader cannot see the hardware, so it has its limit as a constant.
+    #[test]
+    fn prepare_and_the_reader_of_scenes_have_one_limit() {
+        let set = &WIDTH_SETS[0];
+        let limit = Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 };
+        assert_eq!(limit, Limit::DEFAULT);
+    }
+
+    const SCENE: &str = "[camera]\neye = [0, -2.6, 1.7]\n[remesh]\ncell_px = 4\n[[object]]\nmesh = { kind = \"grid\" }\nmap \
+                         = { kind = \"ramp\", size = [300, 9] }\n";
+
+    /// What a smaller width set cannot hold is refused there, too.
+    #[test]
+    fn prepare_refuses_what_another_width_set_cannot_hold() {
+        let scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
+        let small = relief_hdl::widths::small::SET;
+        assert!(prepare(&scene, &WIDTH_SETS[0]).is_ok());
+        // A side of 9 bits goes to 511.
+        assert!(prepare(&scene, &small).is_err_and(|error| !error.to_string().contains("[[object]] 1: the map")));
+        let scene = parse(&SCENE.replace("300", "512"), "scene.toml", Path::new("")).unwrap();
+        let error = prepare(&scene, &small).err().unwrap().to_string();
+        let expected = "scene.toml:5: [[object]] 1: the map ramp of 512 x 9 samples has a side beyond the limit of 511; a \
+                        smaller map is expected";
+        assert_eq!(error, expected);
+    }
+
+    /// A map that the builder cannot count, past all checks: the sentence names entry, block, beat, cycle and both sides.
+    #[test]
+    fn render_names_the_first_mismatch() {
+        let set = &WIDTH_SETS[0];
+        let mut scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
+        let ramp = relief_models::map::Procedural::Ramp;
+        scene.objects[0].map = relief_models::map::HeightMap::procedural(ramp, 2050, 3);
+        let object = &scene.objects[0];
+        let draw = draw_of(&scene, object, &view_of(&scene), set).unwrap();
+        let (wrap, centring) = (object.wrap, Centring::Node);
+        let size = BuildSize { width: 2050, height: 3, wrap, centring, levels: 3, poles: false };
+        let objects = vec![PreparedObject { object, size, draw }];
+        let prepared = Prepared { scene: &scene, objects, triangles: 0, warnings: Vec::new() };
+        let mut pipeline = crate::pipeline::Pipeline::new(set);
+        let mut obj = Vec::new();
+        let error = crate::frame::render(&prepared, &mut pipeline, None, &mut obj, &()).err().unwrap();
+        assert!(error.is_mismatch());
+        let sentence = error.to_string();
+        let start = "scene.toml:5: [[object]] 1: mip_build differs from its golden model: beat 0, cycle ";
+        let end = ", port out_valid: expected no beat, got a beat too many";
+        assert!(sentence.starts_with(start) && sentence.ends_with(end), "{sentence}");
+    }
+}
