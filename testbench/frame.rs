@@ -37,12 +37,12 @@ pub enum FrameError {
     Output(#[from] std::io::Error),
     /// The hardware is at fault, or cannot be run.
     #[error("{0}")]
-    Pipeline(InputError, #[source] PipelineError),
+    Pipeline(InputError, #[source] Box<PipelineError>),
 }
 
 impl FrameError {
     /// Whether the hardware is wrong, rather than the input.
-    pub const fn is_mismatch(&self) -> bool {
+    pub fn is_mismatch(&self) -> bool {
         matches!(self, Self::Pipeline(_, cause) if cause.is_mismatch())
     }
 }
@@ -139,7 +139,7 @@ pub fn render(
     let mut vertices = 0;
     for (at, PreparedObject { object, size, draw }) in prepared.objects.iter().enumerate() {
         let fail = |cause: PipelineError| {
-            FrameError::Pipeline(scene.source.error(Entry::Object(at), cause.to_string()), cause)
+            FrameError::Pipeline(scene.source.error(Entry::Object(at), cause.to_string()), Box::new(cause))
         };
         let pyramid = pipeline.build(size, &object.map.samples).map_err(fail)?;
         pipeline.load(&pyramid).map_err(fail)?;

@@ -115,8 +115,8 @@ fn mip_build_poles_only_replace_what_is_sent() {
                 let poles = golden_with_poles(width, height, &map, centring, wrap, extremum, levels).unwrap();
                 for (number, level) in plain.levels.iter_mut().enumerate() {
                     let first = (height - 1) >> number;
-                    let rows = if first == 0 { vec![0..level.height] } else { vec![0..1, first..level.height] };
-                    for rows in rows {
+                    // Where the lower pole begins with row 0, it is all of both.
+                    for rows in [0..first.min(1), first..level.height].into_iter().filter(|rows| !rows.is_empty()) {
                         let samples = &mut level.samples[rows.start * level.width..rows.end * level.width];
                         let pole = samples.iter().copied().reduce(|a, b| extremum.of(a, b)).unwrap();
                         samples.fill(pole);
