@@ -2,8 +2,13 @@
 //! Ways from a height map to a mesh, one [`Method`] each. A new one implements the trait in a file below `method/` and
 //! joins [`METHODS`]: `tessellate`, `chart` and `stability` then know it.
 
+mod bisector;
+mod hardware;
+mod remesher;
 mod uniform;
 
+pub use bisector::{Bisector, DEFAULT_EFFORT};
+pub use remesher::Remesher;
 pub use uniform::Uniform;
 
 use crate::replay::ReplayError;
@@ -120,7 +125,8 @@ pub trait Method: Sync {
 }
 
 /// Every method.
-pub const METHODS: &[&dyn Method] = &[&Uniform];
+pub const METHODS: &[&dyn Method] =
+    &[&Bisector { effort: Some(DEFAULT_EFFORT) }, &Bisector { effort: None }, &Uniform, &Remesher];
 
 /// The method of a name.
 pub fn find(name: &str) -> Option<&'static dyn Method> {
