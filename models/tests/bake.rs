@@ -77,6 +77,25 @@ fn bake_bounds_hold_on_failure_maps() {
 }
 
 #[test]
+fn bake_flips_are_their_own_inverse_and_keep_the_bound() {
+    let map = HeightMap::procedural(Procedural::Peaks, 90, 61);
+    let ground = ground(&map, false);
+    for flip in [[false, true], [true, false], [true, true]] {
+        let there = bake::flip(&map.samples, map.width, flip);
+        assert!(there != map.samples && bake::flip(&there, map.width, flip) == map.samples);
+        let at = bake::unflip([3, 7], [90, 61], flip);
+        assert_eq!(there[7 * 90 + 3], map.sample(at[0] as usize, at[1] as usize));
+    }
+    let bound: Tolerance = "400".parse().unwrap();
+    let (flip, fit) = bake::fitted_from_best_corner(&map, &ground, bound, 1, &());
+    let flipped = bake::flip(&map.samples, map.width, flip);
+    let measured = measure(&Ground { samples: &flipped, ..ground }, &fit.split, &fit.heights);
+    assert!(measured.maximum.is_within(bound) && measured.missing == 0);
+    let first = fitted(&ground, bound, 0, &());
+    assert!(measured.triangles <= measure(&ground, &first.split, &first.heights).triangles);
+}
+
+#[test]
 fn bake_planes_take_two_triangles_and_noise_takes_all() {
     let bound: Tolerance = "1/2".parse().unwrap();
     for (name, map) in failure_maps() {
@@ -95,11 +114,14 @@ fn bake_planes_take_two_triangles_and_noise_takes_all() {
 
 #[test]
 fn bake_fits_are_the_same_at_any_number_of_cores_and_larger_efforts_never_grow() {
-    let map = HeightMap::procedural(Procedural::Peaks, 150, 97);
+    // Hills with noise: vertices everywhere, also along the borders of the windows.
+    let mut state = 5;
+    let mut map = HeightMap::procedural(Procedural::Peaks, 210, 157);
+    map.samples.iter_mut().for_each(|sample| *sample = *sample / 2 + (random(&mut state) % 900) as u16);
     let ground = ground(&map, false);
-    let bound: Tolerance = "300".parse().unwrap();
+    let bound: Tolerance = "600".parse().unwrap();
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let [one, three] = [1, 3].map(|threads| pool(threads).install(|| fitted(&ground, bound, 3, &())));
+    let [one, three] = [1, 3].map(|threads| pool(threads).install(|| fitted(&ground, bound, 10, &())));
     assert!(one == three);
     let counts: Vec<u64> = (0..5)
         .map(|effort| {
@@ -143,7 +165,7 @@ fn maps() -> impl Strategy<Value = HeightMap> {
         let slopes = [random(&mut state) % 900, random(&mut state) % 900];
         map_of(width, height, |x, y| {
             let smooth = slopes[0] * x as u64 + slopes[1] * y as u64;
-            (smooth + (random(&mut state) & 0xFFFF) >> rough) as u16
+            (smooth + ((random(&mut state) & 0xFFFF) >> rough)) as u16
         })
     })
 }
@@ -309,6 +331,7 @@ fn baked(map: HeightMap) -> Baked {
         split: Some(bake::SplitEntry {
             bound: bound.to_string(),
             fitted: true,
+            flipped: [true, false],
             effort: Some(1),
             triangles: measured.triangles,
             maximum: [measured.maximum.over, measured.maximum.under],
@@ -380,7 +403,8 @@ fn bake_folders_that_do_not_fit_are_refused() {
             }
         }
     };
-    let cases: Vec<(Box<dyn Fn(&mut Baked, &Path)>, &str)> = vec![
+    type Change = Box<dyn Fn(&mut Baked, &Path)>;
+    let cases: Vec<(Change, &str)> = vec![
         (Box::new(text("\"version\": 1", "\"version\": 2")), "version 2; \"relief bake\", version 1, is expected"),
         (Box::new(text("relief bake", "relief cake")), "is of format \"relief cake\""),
         (Box::new(text("\"levels\": 6", "\"levels\": 7")), "has 7 levels; 6 are expected"),

@@ -114,8 +114,7 @@ impl Method for Remesher {
             Goal::Bound(bound) => {
                 let bound = f64::from(bound.over()) / f64::from(bound.under());
                 let mesh_of = |step| Ok(Laid::new(map, step)?.mesh(remesh::Engine::Golden, &())?.0);
-                let found = coarsest(map, bound, mesh_of)?;
-                return self.tessellate(map, Goal::Triangles(found.triangles.len() as u64), engine, progress);
+                coarsest(map, bound, mesh_of)?
             }
         };
         let laid = Laid::new(map, step)?;

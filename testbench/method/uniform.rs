@@ -18,13 +18,13 @@ pub(super) fn coarsest(
     map: &HeightMap,
     bound: f64,
     mesh_of: impl Fn(usize) -> Result<TriangleMesh, MethodError>,
-) -> Result<TriangleMesh, MethodError> {
+) -> Result<usize, MethodError> {
     let longest = map.width.max(map.height).max(2) - 1;
     let mut step = longest.next_power_of_two();
     loop {
         let mesh = mesh_of(step)?;
         if step == 1 || heights(&mesh, map, &())?.max <= bound {
-            return Ok(mesh);
+            return Ok(step);
         }
         step /= 2;
     }
@@ -59,7 +59,7 @@ impl Method for Uniform {
             Goal::Triangles(most) => with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?,
             Goal::Bound(bound) => {
                 let bound = f64::from(bound.over()) / f64::from(bound.under());
-                coarsest(map, bound, |step| Ok(with_step(map, step)?))?
+                with_step(map, coarsest(map, bound, |step| Ok(with_step(map, step)?))?)?
             }
         };
         let golden_seconds = begun.elapsed().as_secs_f64();
