@@ -70,6 +70,8 @@ pub struct BisectorVertices<const C: usize, const A: usize> {
     lane_u: Wire<Lanes<3, 21>>,
     lane_v: Wire<Lanes<3, 21>>,
     here: Wire<Lanes<3, 21>>,
+    zero: Wire<S<21>>,
+    nothing: Wire<Lanes<3, 21>>,
     new_left: Wire<Bit>,
     new_right: Wire<Bit>,
 }
@@ -135,6 +137,8 @@ impl<const C: usize, const A: usize> Default for BisectorVertices<C, A> {
             lane_u: Wire::default(),
             lane_v: Wire::default(),
             here: Wire::default(),
+            zero: Wire::default(),
+            nothing: Wire::default(),
             new_left: Wire::default(),
             new_right: Wire::default(),
         }
@@ -175,6 +179,8 @@ impl<const C: usize, const A: usize> Logic for BisectorVertices<C, A> {
         self.lane_u.next = bit_cast_to::<Lanes<3, 21>>(bit_cast_to::<S<21>>(self.s2_u.q.val()));
         self.lane_v.next = self.lane_u.val().replace_bit(1, bit_cast_to::<S<21>>(self.s2_v.q.val()));
         self.here.next = self.lane_v.val().replace_bit(2, bit_cast_to::<S<21>>(self.heights.read_data.val()));
+        self.zero.next = 0.into();
+        self.nothing.next = bit_cast_to::<Lanes<3, 21>>(self.zero.val());
         self.new_left.next = self.s2_valid.q.val()
             && (self.s2_role.q.val() == 0 || (self.s2_role.q.val() == 2 && !self.s2_side.q.val()));
         self.new_right.next =
@@ -210,6 +216,15 @@ impl<const C: usize, const A: usize> Logic for BisectorVertices<C, A> {
             self.s3_side.d.next = self.s2_side.q.val();
             self.s3_begins.d.next = self.s2_begins.q.val();
             self.s3_walker.d.next = self.s2_walker.q.val();
+            // The end of a draw carries nothing, rather than what the registers happen to hold.
+            if self.s2_end.q.val() {
+                self.s3_left.d.next = self.nothing.val();
+                self.s3_right.d.next = self.nothing.val();
+                self.s3_fresh.d.next = self.nothing.val();
+                self.s3_side.d.next = false;
+                self.s3_begins.d.next = false;
+                self.s3_walker.d.next = false;
+            }
             if self.new_left.val() && !self.s2_walker.q.val() {
                 self.left_0.d.next = self.here.val();
             }
