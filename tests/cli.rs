@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -23,6 +23,7 @@ const NAMES: [&str; 9] = [
     "sat_fetch",
     "sat_fetch_parallel",
     "sat_average",
+    "bisector",
 ];
 
 /// Exit code, stdout and stderr.

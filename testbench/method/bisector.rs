@@ -3,7 +3,7 @@
 
 use super::hardware::draw;
 use super::{Engine, Goal, Method, MethodError, Tessellation};
-use relief_models::bake::{Baked, Ground, Tolerance, fitted, unfitted};
+use relief_models::bake::{Ground, Tolerance, fitted, unfitted};
 use relief_models::bisector::{Lattice, SplitMap, Vertex, golden};
 use relief_models::map::HeightMap;
 use relief_models::mesh::{Progress, TriangleMesh};
@@ -88,21 +88,6 @@ impl Bisector {
             }
         }
         Ok(best)
-    }
-
-    /// The mesh of a folder that `relief bake` made.
-    ///
-    /// # Errors
-    /// The folder has no split map; hardware and golden model disagree.
-    pub fn baked(baked: &Baked, engine: Engine, progress: &dyn Progress) -> Result<Tessellation, MethodError> {
-        let parts = baked.split.clone().zip(baked.heights.clone());
-        let Some(((split, heights), entry)) = parts.zip(baked.manifest.split.as_ref()) else {
-            let message = "the folder has no split map; bake it with --what split --bound E";
-            return Err(MethodError::Unfit(message.into()));
-        };
-        let bound: Option<Tolerance> = entry.bound.parse().ok();
-        let prepared = Prepared { lattice: baked.lattice, split, heights };
-        tessellate(&prepared, bound, engine, 0.0, progress)
     }
 }
 
