@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tessellates a height map by bisection: two walkers, a triangle every second cycle.
 //!
-//! A triangle with midpoint m is split where error[m] > base + ((slope * excess) >> 8) (models::bisector)
+//! A triangle with midpoint m is split where `error[m] > base + ((slope * excess) >> 8)` (models::bisector)
 //!
 //! | port       | format      | meaning |   About two cycles a triangle, 11 before the first
 //! | in_kind    | 2 bits      | 0 size, 1 sample, 2 draw   Golden: models::bisector::golden   Error 0
