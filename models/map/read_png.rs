@@ -31,7 +31,7 @@ pub fn read(path: &Path, check: CheckSize<'_>) -> Result<Read8Or16, InputError> 
 pub fn read_values(path: &Path, side: u32) -> Result<(HeightMap, u8), InputError> {
     let (mut map, bits) = read_file(path, &|size| {
         let sound = size.iter().all(|length| (2..=side as usize).contains(length));
-        if sound { Ok(()) } else { Err(format!("2 x 2 to {side} x {side} is expected")) }
+        if sound { Ok(()) } else { Err(format!("has to have 2 x 2 to {side} x {side}")) }
     })?;
     if bits < 16 {
         // Scaled to 16 bits without a rest.
