@@ -7,7 +7,9 @@ mod unfitted;
 
 pub use surface::{Excess, Ground};
 pub use unfitted::unfitted;
-pub use fit::*;
+pub use fit::{Fitted, fitted};
+
+use crate::bisector::{Lattice, SplitMap, golden};
 
 /// A bound on the error, in map units: a fraction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,4 +18,9 @@ pub struct Tolerance {
     pub over: u32,
     /// Denominator, 1 to 10,000.
     pub under: u32,
+}
+
+/// Triangles of a split map.
+pub fn triangles(lattice: &Lattice, split: &SplitMap) -> u64 {
+    golden(lattice, split, &mut |_| ()).triangles
 }
