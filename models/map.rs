@@ -24,7 +24,7 @@ mod read_png;
 
 pub use crate::mip_build::Wrap;
 pub use procedural::Procedural;
-pub use read_png::{read, read_from};
+pub use read_png::{read, read_from, read_values};
 
 /// Words of the pyramid memory in the default width set, over all levels.
 pub const MEMORY_WORDS: u64 = 524_288;

@@ -17,7 +17,7 @@ use fabric::Fabric;
 use window::Tiling;
 
 use super::{Ground, Tolerance, unfitted};
-use crate::bisector::SplitMap;
+use crate::bisector::{SplitMap, golden};
 use crate::mesh::Progress;
 
 /// A split map and the heights that keep its bound.
@@ -42,7 +42,8 @@ pub fn fitted(ground: &Ground<'_>, tolerance: Tolerance, effort: u32, progress: 
     grow::need(&fabric, progress);
     grow::grow(&fabric, progress);
     let plain = unfitted(ground, tolerance);
-    if super::triangles(&ground.lattice, &plain) < super::triangles(&ground.lattice, &fabric.split_map()) {
+    let count = |split: &SplitMap| golden(&ground.lattice, split, &mut |_| ()).triangles;
+    if count(&plain) < count(&fabric.split_map()) {
         fabric.reset(&plain);
     }
     let tilings: Vec<Tiling> = (0..REMOVALS + u64::from(effort)).map(|round| Tiling::of(&fabric, round)).collect();
@@ -65,7 +66,7 @@ pub fn fitted(ground: &Ground<'_>, tolerance: Tolerance, effort: u32, progress: 
     }
     let done = AtomicU64::new(0);
     progress.phase("rebuilding", windows(rebuildings));
-    if std::env::var("V").is_ok() { eprintln!("removed {}", super::triangles(&ground.lattice, &fabric.split_map())); }
+    if std::env::var("V").is_ok() { eprintln!("removed {}", count(&fabric.split_map())); }
     for (round, tiling) in rebuildings.iter().enumerate() {
         let rings = if (round as u64) < NARROW { 1 } else { 2 };
         tiling.each(&fabric, progress, &done, |worker| {
@@ -82,7 +83,7 @@ pub fn fitted(ground: &Ground<'_>, tolerance: Tolerance, effort: u32, progress: 
                 }
             }
         });
-        if std::env::var("V").is_ok() { eprintln!("{round} {}", super::triangles(&ground.lattice, &fabric.split_map())); }
+        if std::env::var("V").is_ok() { eprintln!("{round} {}", count(&fabric.split_map())); }
     }
     fabric.finish()
 }

@@ -36,7 +36,7 @@ impl Excess {
     #[inline]
     pub fn is_within(self, tolerance: Tolerance) -> bool {
         // Below 2^45 times 10^4 on the left, below 2^30 times 2^29 on the right.
-        self.over * i64::from(tolerance.under) <= i64::from(tolerance.over) * self.under
+        self.over * i64::from(tolerance.under()) <= i64::from(tolerance.over()) * self.under
     }
     /// For people.
     pub fn to_f64(self) -> f64 {

@@ -5,7 +5,7 @@ fn main() {
     let args: Vec<String> = std::env::args().collect();
     let (map, _) = relief_models::map::read(args[1].as_ref(), 1 << 25).unwrap();
     let b: f64 = args[2].parse().unwrap();
-    let tolerance = Tolerance { over: (b * 10.0).round() as u32, under: 10 };
+    let tolerance = Tolerance::new((b * 10.0).round() as u32, 10).unwrap();
     for mirrored in [false] {
         let lattice = Lattice::of(map.width as u32, map.height as u32, mirrored).unwrap();
         let ground = Ground { lattice, samples: &map.samples };

@@ -32,7 +32,7 @@ pub(super) struct Worker<'f> {
 
 impl<'f> Worker<'f> {
     pub fn new(fabric: &'f Fabric<'f>, window: Window, seed: u64) -> Worker<'f> {
-        let bound = 16.0 * fabric.tolerance.over as f32 / fabric.tolerance.under as f32;
+        let bound = 16.0 * fabric.tolerance.over() as f32 / fabric.tolerance.under() as f32;
         let most = (bound - MARGIN).max(0.5 * bound);
         let slack = AIM * bound;
         let (patch, bits, heights, star) = (Patch::default(), Vec::new(), Vec::new(), Vec::new());
