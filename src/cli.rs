@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use relief_models::mesh::Progress;
 
+pub mod bake;
 pub mod blocks;
 pub mod check;
 pub mod check_mesh;

@@ -20,6 +20,7 @@ struct Arguments {
 #[derive(Subcommand)]
 enum Command {
     Run(cli::run::Arguments),
+    Bake(cli::bake::Arguments),
     Blocks(cli::blocks::Arguments),
     Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
@@ -36,6 +37,7 @@ fn main() -> ExitCode {
     });
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => cli::run::run(&arguments),
+        Command::Bake(arguments) => cli::bake::run(&arguments),
         Command::Blocks(arguments) => cli::blocks::run(&arguments),
         Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),

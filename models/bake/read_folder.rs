@@ -38,7 +38,8 @@ impl Baked {
             let message = format!("has the hash {}, and bake.json says {}", hash(&map), manifest.map.fnv1a);
             return Err(fail("map.png", message + "; the map of the same run is expected"));
         }
-        let (mut split, mut heights, mut errors, mut mips, mut sums, mut normals) = (None, None, None, None, None, None);
+        let (mut split, mut heights, mut errors, mut mips, mut sums, mut normals) =
+            (None, None, None, None, None, None);
         if let Some(entry) = &manifest.split {
             let mut bits = SplitMap::new(&lattice);
             for (index, bit) in picture("split.png", Kind::Grey(1), vertices)?.into_iter().enumerate() {
@@ -72,7 +73,8 @@ impl Baked {
                 let samples = picture(&format!("{name}_{number}.png"), Kind::Grey(16), sizes[number])?;
                 Ok::<Level, InputError>(Level { width: sizes[number][0], height: sizes[number][1], samples })
             };
-            let pyramid = |name: &str| (0..sizes.len()).map(|number| level(name, number)).collect::<Result<Vec<_>, _>>();
+            let pyramid =
+                |name: &str| (0..sizes.len()).map(|number| level(name, number)).collect::<Result<Vec<_>, _>>();
             mips = Some([pyramid(MIPS[0])?, pyramid(MIPS[1])?]);
         }
         if manifest.sums.is_some() {
@@ -87,16 +89,16 @@ impl Baked {
         }
         if manifest.normals.is_some() {
             let words = picture("normals.png", Kind::Colour, size)?;
-            normals = Some(words.as_chunks().0.iter().map(|normal| normal.map(|word| (word ^ 0x8000) as i16)).collect());
+            normals =
+                Some(words.as_chunks().0.iter().map(|normal| normal.map(|word| (word ^ 0x8000) as i16)).collect());
         }
         Ok(Baked { manifest, lattice, map, split, heights, errors, mips, sums, normals })
     }
 }
 
 fn manifest(path: &Path) -> Result<Manifest, String> {
-    let length = fs::metadata(path).map_err(|error| {
-        format!("cannot be opened: {error}; a folder that `relief bake` has written is expected")
-    })?;
+    let length = fs::metadata(path)
+        .map_err(|error| format!("cannot be opened: {error}; a folder that `relief bake` has written is expected"))?;
     if length.len() > MANIFEST_BYTES {
         return Err(format!("has {} bytes; a manifest of some hundred is expected", length.len()));
     }

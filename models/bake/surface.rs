@@ -192,9 +192,8 @@ pub(super) fn each_row(corners: [[u32; 2]; 3], mut row: impl FnMut(i64, i64, i64
     for y in low..=high {
         let (mut first, mut last) = (a[0].min(b[0]).min(c[0]), a[0].max(b[0]).max(c[0]));
         let origin = first;
-        let at_origin = edges.map(|(from, to)| {
-            (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (origin - from[0])
-        });
+        let at_origin =
+            edges.map(|(from, to)| (to[0] - from[0]) * (y - from[1]) - (to[1] - from[1]) * (origin - from[0]));
         for (&weight, step) in at_origin.iter().zip(steps) {
             // weight + (x - origin) step >= 0
             if step > 0 {

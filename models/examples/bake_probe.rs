@@ -19,10 +19,20 @@ fn main() {
         let mut worst = Excess::NONE;
         let mut wait = lattice.roots().to_vec();
         while let Some(node) = wait.pop() {
-            if lattice.is_dead(node) { continue }
-            if node.midpoint().is_some_and(|m| f.split.get(lattice.index(m))) { wait.extend(node.halves()); continue }
+            if lattice.is_dead(node) {
+                continue;
+            }
+            if node.midpoint().is_some_and(|m| f.split.get(lattice.index(m))) {
+                wait.extend(node.halves());
+                continue;
+            }
             worst = worst.max(ground.excess(node, |i| f.heights[i] as i32));
         }
-        println!("fitted {} in {:?} worst {}", golden(&lattice, &f.split, &mut |_| ()).triangles, t.elapsed(), worst.to_f64());
+        println!(
+            "fitted {} in {:?} worst {}",
+            golden(&lattice, &f.split, &mut |_| ()).triangles,
+            t.elapsed(),
+            worst.to_f64()
+        );
     }
 }

@@ -54,9 +54,7 @@ fn open<T>(path: &Path, decode: impl Fn(BufReader<File>) -> Result<T, String>) -
 /// Reads a map from the bytes of a PNG, which errors call `name`; what [`read`] does once the file is open.
 pub fn read_from(bytes: &[u8], name: &str, limit: u64) -> Result<Read8Or16, InputError> {
     let decoded = decode(Cursor::new(bytes), limit, |size| within_memory(size, limit));
-    decoded
-        .map(|(map, bits)| (map, steps(bits)))
-        .map_err(|message| InputError::new(name, Place::File, message))
+    decoded.map(|(map, bits)| (map, steps(bits))).map_err(|message| InputError::new(name, Place::File, message))
 }
 
 fn within_memory([width, height]: [u32; 2], limit: u64) -> Result<(), String> {

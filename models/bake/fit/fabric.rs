@@ -74,8 +74,11 @@ impl<'a> Fabric<'a> {
     /// The heights that a vertex may have.
     #[inline]
     pub fn range(&self, at: u32) -> [i32; 2] {
-        let (sample, p, q) =
-            (i64::from(self.ground.samples[at as usize]), i64::from(self.tolerance.over()), i64::from(self.tolerance.under()));
+        let (sample, p, q) = (
+            i64::from(self.ground.samples[at as usize]),
+            i64::from(self.tolerance.over()),
+            i64::from(self.tolerance.under()),
+        );
         let low = -((16 * (p - sample * q)).div_euclid(q));
         let high = (16 * (p + sample * q)).div_euclid(q);
         [low.max(0) as i32, high.min(HIGHEST) as i32]

@@ -2,8 +2,8 @@
 //! A few vertices with all their leaves: the deviations at the samples, and how they follow the heights.
 
 use super::fabric::{Fabric, Leaf};
-use super::window::Window;
 use super::shapes::{Shape, Shapes};
+use super::window::Window;
 use crate::bisector::Node;
 
 /// Not moved.
@@ -122,9 +122,11 @@ impl Patch {
             }
         }
         self.offsets.clear();
-        self.offsets.extend(self.vars.iter().map(|&at| {
-            (fabric.height(at) - (i32::from(fabric.ground.samples[at as usize]) << 4)) as f32
-        }));
+        self.offsets.extend(
+            self.vars
+                .iter()
+                .map(|&at| (fabric.height(at) - (i32::from(fabric.ground.samples[at as usize]) << 4)) as f32),
+        );
         self.moves.clear();
         self.moves.resize(self.vars.len(), 0.0);
     }

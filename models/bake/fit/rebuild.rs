@@ -70,8 +70,9 @@ impl Worker<'_> {
     fn is_sound(&self) -> bool {
         let fabric = self.fabric;
         let keeps = |node: Node| fabric.lattice().is_dead(node) || fabric.splits(node) || fabric.keeps(node);
-        self.bits.iter().flat_map(|&vertex| fabric.live_at(vertex)).all(|node| {
-            if fabric.splits(node) { node.halves().into_iter().all(keeps) } else { fabric.keeps(node) }
-        })
+        self.bits
+            .iter()
+            .flat_map(|&vertex| fabric.live_at(vertex))
+            .all(|node| if fabric.splits(node) { node.halves().into_iter().all(keeps) } else { fabric.keeps(node) })
     }
 }

@@ -95,7 +95,13 @@ impl Tiling {
         self.counts[0] * self.counts[1]
     }
     /// Lets a worker work on each window, and counts what is done.
-    pub fn each(&self, fabric: &Fabric<'_>, progress: &dyn Progress, done: &AtomicU64, work: impl Fn(&mut Worker<'_>) + Sync) {
+    pub fn each(
+        &self,
+        fabric: &Fabric<'_>,
+        progress: &dyn Progress,
+        done: &AtomicU64,
+        work: impl Fn(&mut Worker<'_>) + Sync,
+    ) {
         (0..self.count()).into_par_iter().for_each(|index| {
             let seed = (self.round << 32 | index as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
             work(&mut Worker::new(fabric, self.window(index), seed));

@@ -76,9 +76,9 @@ impl<'f> Worker<'f> {
         let is_whole = |half: Node| fabric.lattice().is_dead(half) || !fabric.splits(half);
         fabric.is_split(vertex)
             && !fabric.is_needed(vertex)
-            && fabric.live_at(vertex).all(|node| {
-                node.halves().into_iter().all(is_whole) && self.window.holds(fabric, &fabric.leaf(node))
-            })
+            && fabric
+                .live_at(vertex)
+                .all(|node| node.halves().into_iter().all(is_whole) && self.window.holds(fabric, &fabric.leaf(node)))
     }
     /// The vertices of the window that can be removed.
     pub fn removable(&self) -> Vec<[u32; 2]> {
@@ -134,7 +134,9 @@ impl<'f> Worker<'f> {
             let at = fabric.ground.sample_index(vertex) as u32;
             let ends = fabric.live_at(vertex).next().map(|node| fabric.leaf(node).at);
             // A clamped vertex may stand on one that is there.
-            if let Some([a, b, _]) = ends.filter(|ends| !ends.contains(&at)) && !fabric.is_shared(vertex) {
+            if let Some([a, b, _]) = ends.filter(|ends| !ends.contains(&at))
+                && !fabric.is_shared(vertex)
+            {
                 let [low, high] = fabric.range(at);
                 self.heights.push((at, fabric.height(at)));
                 fabric.set_height(at, ((fabric.height(a) + fabric.height(b)) >> 1).clamp(low, high));
