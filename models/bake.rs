@@ -27,6 +27,7 @@
 //! ```
 
 mod fit;
+mod flip;
 mod folder;
 mod manifest;
 mod measure;
@@ -40,6 +41,7 @@ mod unfitted;
 mod voids;
 
 pub use fit::{Fitted, fitted};
+pub use flip::{Flip, fitted_from_best_corner, flip, unflip};
 pub use folder::{Baked, hash, is_ours};
 pub use manifest::{ErrorsEntry, FORMAT, Manifest, MapEntry, NormalsEntry, SplitEntry, SumsEntry, VERSION};
 pub use measure::{Measured, measure};

@@ -66,9 +66,6 @@ pub fn fitted(ground: &Ground<'_>, tolerance: Tolerance, effort: u32, progress: 
     }
     let done = AtomicU64::new(0);
     progress.phase("rebuilding", windows(rebuildings));
-    if std::env::var("V").is_ok() {
-        eprintln!("removed {}", count(&fabric.split_map()));
-    }
     for (round, tiling) in rebuildings.iter().enumerate() {
         let rings = if (round as u64) < NARROW { 1 } else { 2 };
         tiling.each(&fabric, progress, &done, |worker| {
@@ -85,9 +82,6 @@ pub fn fitted(ground: &Ground<'_>, tolerance: Tolerance, effort: u32, progress: 
                 }
             }
         });
-        if std::env::var("V").is_ok() {
-            eprintln!("{round} {}", count(&fabric.split_map()));
-        }
     }
     fabric.finish()
 }

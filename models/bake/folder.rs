@@ -5,6 +5,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
+use super::flip::flip;
 use super::manifest::Manifest;
 use super::picture::{Kind, write as write_picture};
 use crate::bisector::{Lattice, SplitMap};
@@ -22,7 +23,8 @@ pub struct Baked {
     pub map: HeightMap,
     /// The split map.
     pub split: Option<SplitMap>,
-    /// The heights of the split map, UQ16.4, one a sample: the fitted ones, or the map's.
+    /// The heights of the split map, UQ16.4, one a sample: the fitted ones, or the map's. In the order of the lattice, which
+    /// is that of the map once it is flipped as the manifest says.
     pub heights: Option<Vec<u32>>,
     /// Saturated errors, one a lattice vertex.
     pub errors: Option<Vec<u16>>,
@@ -67,8 +69,9 @@ impl Baked {
         if let Some(split) = &self.split {
             write_picture(&folder.join("split.png"), Kind::Grey(1), lattice, |at| split.get(at).into())?;
         }
-        let fitted = self.manifest.split.as_ref().is_some_and(|split| split.fitted);
-        if let Some(heights) = self.heights.as_ref().filter(|_| fitted) {
+        if let (Some(heights), Some(entry)) = (&self.heights, self.manifest.split.as_ref().filter(|split| split.fitted))
+        {
+            let heights = flip(heights, self.map.width, entry.flipped);
             grey("heights.png", size, &|at| (heights[at] >> 4) as u16)?;
             write_picture(&folder.join("fractions.png"), Kind::Grey(4), size, |at| (heights[at] & 15) as u16)?;
         }

@@ -62,6 +62,8 @@ pub struct SplitEntry {
     pub bound: String,
     /// Whether the heights are fitted; if not, they are the map's.
     pub fitted: bool,
+    /// Whether the lattice counts columns, and rows, from the other end of the map.
+    pub flipped: [bool; 2],
     /// Rounds of search.
     pub effort: Option<u32>,
     /// Triangles.

@@ -5,6 +5,7 @@
 use std::fs;
 use std::path::Path;
 
+use super::flip::flip;
 use super::folder::{Baked, MIPS, hash};
 use super::manifest::{FORMAT, Manifest, VERSION};
 use super::picture::{Kind, read as read_picture};
@@ -48,13 +49,14 @@ impl Baked {
             is_closed(&lattice, &bits).map_err(|message| fail("split.png", message))?;
             split = Some(bits);
             let whole = map.samples.iter().map(|&sample| u32::from(sample) << 4);
-            heights = Some(if entry.fitted {
+            let in_map = if entry.fitted {
                 let whole = picture("heights.png", Kind::Grey(16), size)?;
                 let parts = picture("fractions.png", Kind::Grey(4), size)?;
                 whole.iter().zip(parts).map(|(&whole, part)| u32::from(whole) << 4 | u32::from(part)).collect()
             } else {
-                whole.collect()
-            });
+                whole.collect::<Vec<u32>>()
+            };
+            heights = Some(flip(&in_map, size[0], entry.flipped));
         }
         if let Some(entry) = &manifest.errors {
             let read = picture("errors.png", Kind::Grey(16), vertices)?;

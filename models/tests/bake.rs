@@ -77,6 +77,25 @@ fn bake_bounds_hold_on_failure_maps() {
 }
 
 #[test]
+fn bake_flips_are_their_own_inverse_and_keep_the_bound() {
+    let map = HeightMap::procedural(Procedural::Peaks, 90, 61);
+    let ground = ground(&map, false);
+    for flip in [[false, true], [true, false], [true, true]] {
+        let there = bake::flip(&map.samples, map.width, flip);
+        assert!(there != map.samples && bake::flip(&there, map.width, flip) == map.samples);
+        let at = bake::unflip([3, 7], [90, 61], flip);
+        assert_eq!(there[7 * 90 + 3], map.sample(at[0] as usize, at[1] as usize));
+    }
+    let bound: Tolerance = "400".parse().unwrap();
+    let (flip, fit) = bake::fitted_from_best_corner(&map, &ground, bound, 1, &());
+    let flipped = bake::flip(&map.samples, map.width, flip);
+    let measured = measure(&Ground { samples: &flipped, ..ground }, &fit.split, &fit.heights);
+    assert!(measured.maximum.is_within(bound) && measured.missing == 0);
+    let first = fitted(&ground, bound, 0, &());
+    assert!(measured.triangles <= measure(&ground, &first.split, &first.heights).triangles);
+}
+
+#[test]
 fn bake_planes_take_two_triangles_and_noise_takes_all() {
     let bound: Tolerance = "1/2".parse().unwrap();
     for (name, map) in failure_maps() {
@@ -309,6 +328,7 @@ fn baked(map: HeightMap) -> Baked {
         split: Some(bake::SplitEntry {
             bound: bound.to_string(),
             fitted: true,
+            flipped: [true, false],
             effort: Some(1),
             triangles: measured.triangles,
             maximum: [measured.maximum.over, measured.maximum.under],
@@ -384,7 +404,10 @@ fn bake_folders_that_do_not_fit_are_refused() {
         (Box::new(text("\"version\": 1", "\"version\": 2")), "version 2; \"relief bake\", version 1, is expected"),
         (Box::new(text("relief bake", "relief cake")), "is of format \"relief cake\""),
         (Box::new(text("\"levels\": 6", "\"levels\": 7")), "has 7 levels; 6 are expected"),
-        (Box::new(text("\"width\": 45", "\"width\": 1")), "has a map of 1 x 29 samples; 2 x 2 to 4097 x 4097 is expected"),
+        (
+            Box::new(text("\"width\": 45", "\"width\": 1")),
+            "has a map of 1 x 29 samples; 2 x 2 to 4097 x 4097 is expected",
+        ),
         (Box::new(text("\"width\": 45", "\"width\": 46")), "map.png: is a picture of 45 x 29 samples"),
         (Box::new(text("\"bound\": \"700\"", "\"bound\": \"soon\"")), "`soon` is no bound"),
         (Box::new(text("\"mirrored\"", "\"mirror\"")), "is not as version 1 has it: unknown field `mirror`"),

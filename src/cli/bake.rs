@@ -26,7 +26,7 @@ pub struct Arguments {
     #[arg(long, value_enum, value_delimiter = ',', required = true)]
     what: Vec<What>,
     /// The bound of the split map, in units of the map: 20, 16.8 or 50/3
-    #[arg(long, value_name = "E")]
+    #[arg(long, value_name = "E", allow_negative_numbers = true)]
     bound: Option<Tolerance>,
     /// How long to search for a smaller fitted mesh: quick, default, high, or a number of rounds
     #[arg(long, value_name = "EFFORT", default_value = "default", value_parser = effort)]
@@ -35,10 +35,10 @@ pub struct Arguments {
     #[arg(long)]
     unfitted: bool,
     /// Samples of this value are void and are filled from round about
-    #[arg(long, value_name = "VALUE")]
+    #[arg(long, value_name = "VALUE", allow_negative_numbers = true)]
     void: Option<u16>,
     /// Units of the map between two samples, for the normals
-    #[arg(long, value_name = "LENGTH", default_value = "1", value_parser = spacing)]
+    #[arg(long, value_name = "LENGTH", default_value = "1", value_parser = spacing, allow_negative_numbers = true)]
     spacing: f64,
     /// The folder
     #[arg(long, value_name = "DIR")]
@@ -61,7 +61,7 @@ enum What {
 
 fn effort(text: &str) -> std::result::Result<u32, String> {
     match text {
-        "quick" => Ok(1),
+        "quick" => Ok(QUICK),
         "default" => Ok(8),
         "high" => Ok(48),
         number => {
@@ -76,6 +76,9 @@ fn spacing(text: &str) -> std::result::Result<f64, String> {
     let sound = |spacing: &f64| (1e-6..=1e9).contains(spacing);
     text.parse().ok().filter(sound).ok_or_else(|| "a length from 0.000001 to 1000000000 is expected".into())
 }
+
+/// Rounds up to which all of it is done from one corner of the map only.
+const QUICK: u32 = 1;
 
 /// Bits of a sum: any rectangle of the largest map is exact.
 const SUM_BITS: u32 = 41;
@@ -162,21 +165,27 @@ fn prepare(
     };
     let (mut manifest, mut split, mut heights) = (manifest, None, None);
     if let Some(bound) = bound {
-        let (bits, fitted) = if arguments.unfitted {
+        let (flipped, bits, fitted) = if arguments.unfitted {
             meter.phase("splitting", 0);
-            (bake::unfitted(&ground, bound), map.samples.iter().map(|&sample| u32::from(sample) << 4).collect())
-        } else {
+            let heights = map.samples.iter().map(|&sample| u32::from(sample) << 4).collect();
+            ([false; 2], bake::unfitted(&ground, bound), heights)
+        } else if arguments.effort <= QUICK {
             let fit = bake::fitted(&ground, bound, arguments.effort, meter);
-            (fit.split, fit.heights)
+            ([false; 2], fit.split, fit.heights)
+        } else {
+            let (flipped, fit) = bake::fitted_from_best_corner(&map, &ground, bound, arguments.effort, meter);
+            (flipped, fit.split, fit.heights)
         };
         meter.phase("measuring", 0);
-        let measured = bake::measure(&ground, &bits, &fitted);
+        let samples = bake::flip(&map.samples, map.width, flipped);
+        let measured = bake::measure(&Ground { samples: &samples, ..ground }, &bits, &fitted);
         if measured.missing != 0 || !measured.maximum.is_within(bound) {
             return Err(measured.maximum);
         }
         manifest.split = Some(bake::SplitEntry {
             bound: bound.to_string(),
             fitted: !arguments.unfitted,
+            flipped,
             effort: (!arguments.unfitted).then_some(arguments.effort),
             triangles: measured.triangles,
             maximum: [measured.maximum.over, measured.maximum.under],
