@@ -114,11 +114,14 @@ fn bake_planes_take_two_triangles_and_noise_takes_all() {
 
 #[test]
 fn bake_fits_are_the_same_at_any_number_of_cores_and_larger_efforts_never_grow() {
-    let map = HeightMap::procedural(Procedural::Peaks, 150, 97);
+    // Hills with noise: vertices everywhere, also along the borders of the windows.
+    let mut state = 5;
+    let mut map = HeightMap::procedural(Procedural::Peaks, 210, 157);
+    map.samples.iter_mut().for_each(|sample| *sample = *sample / 2 + (random(&mut state) % 900) as u16);
     let ground = ground(&map, false);
-    let bound: Tolerance = "300".parse().unwrap();
+    let bound: Tolerance = "600".parse().unwrap();
     let pool = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-    let [one, three] = [1, 3].map(|threads| pool(threads).install(|| fitted(&ground, bound, 3, &())));
+    let [one, three] = [1, 3].map(|threads| pool(threads).install(|| fitted(&ground, bound, 10, &())));
     assert!(one == three);
     let counts: Vec<u64> = (0..5)
         .map(|effort| {

@@ -145,16 +145,20 @@ impl<'f> Worker<'f> {
         Some(inserted)
     }
 
-    /// The corners of all leaves within two edges of a triangle.
+    /// The corners of the leaves within two edges of a triangle, as far as they are inside the window: what lies beyond may
+    /// be changing.
     pub fn near(&mut self, node: Node) -> Vec<[u32; 2]> {
         let mut samples = self.fabric.leaf(node).at.to_vec();
         let mut vertices: Vec<[u32; 2]> = Vec::new();
         let mut next = 0;
         for _ in 0..2 {
             let end = samples.len();
-            for index in next..end {
+            for &sample in &samples.clone()[next..end] {
+                if !self.window.is_inside(self.fabric, sample) {
+                    continue;
+                }
                 self.star.clear();
-                self.fabric.star(samples[index], &mut self.star);
+                self.fabric.star(sample, &mut self.star);
                 for leaf in &self.star {
                     for (at, corner) in leaf.at.into_iter().zip(leaf.node.corners()) {
                         if !samples.contains(&at) {
