@@ -165,7 +165,7 @@ fn maps() -> impl Strategy<Value = HeightMap> {
         let slopes = [random(&mut state) % 900, random(&mut state) % 900];
         map_of(width, height, |x, y| {
             let smooth = slopes[0] * x as u64 + slopes[1] * y as u64;
-            (smooth + (random(&mut state) & 0xFFFF) >> rough) as u16
+            (smooth + ((random(&mut state) & 0xFFFF) >> rough)) as u16
         })
     })
 }
@@ -403,7 +403,8 @@ fn bake_folders_that_do_not_fit_are_refused() {
             }
         }
     };
-    let cases: Vec<(Box<dyn Fn(&mut Baked, &Path)>, &str)> = vec![
+    type Change = Box<dyn Fn(&mut Baked, &Path)>;
+    let cases: Vec<(Change, &str)> = vec![
         (Box::new(text("\"version\": 1", "\"version\": 2")), "version 2; \"relief bake\", version 1, is expected"),
         (Box::new(text("relief bake", "relief cake")), "is of format \"relief cake\""),
         (Box::new(text("\"levels\": 6", "\"levels\": 7")), "has 7 levels; 6 are expected"),
