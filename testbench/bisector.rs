@@ -150,6 +150,9 @@ impl Maps {
     /// Errors of a lattice: closed bits, or anything at all: the walk ends, whatever they are.
     fn errors(&mut self, lattice: &Lattice) -> Vec<u16> {
         let most = (1u64 << self.set.error_bits) - 1;
+        if self.maps <= 2 {
+            return vec![most as u16; lattice.vertices()];
+        }
         if self.random.chance(30) {
             return (0..lattice.vertices()).map(|_| self.random.below(most + 1) as u16).collect();
         }
@@ -167,7 +170,7 @@ impl Maps {
         if self.maps > 10 && self.random.chance(20) {
             self.fault();
         }
-        // Tiny ones first, so that a short run draws, too.
+        // Tiny ones first, split to the end, so that a short run draws, too.
         let (width, height) = if self.maps <= 2 { (2 + self.maps as u32 % 2, 2) } else { (self.side(), self.side()) };
         let mirrored = self.random.chance(30);
         let lattice = Lattice::of(width, height, mirrored).expect("sides from 2 to 26");

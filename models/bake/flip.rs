@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which corner of the map the lattice begins at.
 //!
-//! The lattice's vertices fall elsewhere when the map is flipped first, and the fitted mesh is a per cent or two larger or
+//! The lattice's vertices fall elsewhere when the map is flipped first, and the fitted mesh is somewhat larger or
 //! smaller. (The other diagonal between the roots alone changes nothing once the centre is split: the same four triangles.)
 
 use super::{Ground, Tolerance, fit::Fitted, fitted};

@@ -13,27 +13,23 @@ use crate::bisector::{Node, SplitMap};
 pub fn unfitted(ground: &Ground<'_>, tolerance: Tolerance) -> SplitMap {
     let lattice = &ground.lattice;
     let mut split = SplitMap::new(lattice);
-    let mut fresh: Vec<Node> = lattice.roots().to_vec();
-    let fails = |node: &Node| {
+    let fails = |node: Node| {
         let midpoint = node.midpoint()?;
         let height = |index: usize| i32::from(ground.samples[index]) << 4;
-        (!ground.excess(*node, height).is_within(tolerance)).then_some(midpoint)
+        (!ground.excess(node, height).is_within(tolerance)).then_some(midpoint)
     };
-    while !fresh.is_empty() {
-        let failing: Vec<[u32; 2]> = fresh.par_iter().with_min_len(64).filter_map(fails).collect();
+    let mut failing: Vec<[u32; 2]> = lattice.roots().into_iter().filter_map(fails).collect();
+    while !failing.is_empty() {
         let mut inserted = Vec::new();
         for vertex in failing {
             split.insert_with(lattice, vertex, &mut |vertex| inserted.push(vertex));
         }
-        fresh.clear();
-        for vertex in inserted {
-            for half in lattice.nodes_at(vertex).flat_map(Node::halves) {
-                let is_leaf = half.midpoint().is_some_and(|midpoint| !split.get(lattice.index(midpoint)));
-                if is_leaf && !lattice.is_dead(half) {
-                    fresh.push(half);
-                }
-            }
-        }
+        let fresh = |&vertex: &[u32; 2]| {
+            let halves = lattice.nodes_at(vertex).flat_map(Node::halves);
+            let is_leaf = |midpoint: [u32; 2]| !split.get(lattice.index(midpoint));
+            halves.filter(move |half| !lattice.is_dead(*half) && half.midpoint().is_some_and(is_leaf)).filter_map(fails)
+        };
+        failing = inserted.par_iter().with_min_len(64).flat_map_iter(fresh).collect();
     }
     split
 }

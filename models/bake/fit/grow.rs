@@ -21,13 +21,20 @@ const LEAST: usize = 30;
 /// Splits whatever no heights could keep whole.
 pub(super) fn need(fabric: &Fabric<'_>, progress: &dyn Progress) {
     progress.phase("necessary vertices", u64::from(2 * fabric.lattice().levels));
-    let mut fresh: Vec<Node> = fabric.lattice().roots().to_vec();
+    let mut inserted: Vec<[u32; 2]> = Vec::new();
+    let mut candidates: Vec<[u32; 2]> = fabric.lattice().roots().into_iter().filter_map(Node::midpoint).collect();
     for round in 1.. {
         let worker = || Worker::new(fabric, Window::ALL, 0);
-        let midpoints = fresh.par_iter().with_min_len(64).filter_map(|leaf| leaf.midpoint());
-        let needed = midpoints.map_init(worker, |worker, midpoint| worker.is_necessary(midpoint).then_some(midpoint));
-        let needed: Vec<[u32; 2]> = needed.flatten().collect();
-        let mut inserted = Vec::new();
+        let necessary = |worker: &mut Worker<'_>, vertex: [u32; 2]| worker.is_necessary(vertex).then_some(vertex);
+        // The leaves that came with the last vertices; the list would be larger than all of the mesh.
+        let leaves = |&vertex: &[u32; 2]| {
+            let halves = fabric.live_at(vertex).flat_map(Node::halves);
+            let fresh = halves.filter(|&half| !fabric.lattice().is_dead(half) && !fabric.splits(half));
+            fresh.filter_map(Node::midpoint)
+        };
+        let found = inserted.par_iter().with_min_len(64).flat_map_iter(leaves).chain(candidates.par_drain(..));
+        let needed: Vec<[u32; 2]> = found.map_init(worker, necessary).flatten().collect();
+        inserted.clear();
         for midpoint in needed {
             if !fabric.is_split(midpoint) {
                 // Never refused: all of the map, and as many as it takes.
@@ -37,11 +44,8 @@ pub(super) fn need(fabric: &Fabric<'_>, progress: &dyn Progress) {
         if inserted.is_empty() {
             return;
         }
-        fresh.clear();
-        for vertex in inserted {
+        for &vertex in &inserted {
             fabric.set_needed(vertex);
-            let halves = fabric.live_at(vertex).flat_map(Node::halves);
-            fresh.extend(halves.filter(|&half| !fabric.lattice().is_dead(half) && !fabric.splits(half)));
         }
         progress.advance(round);
     }

@@ -3,7 +3,7 @@
 //!
 //! With r the deviation at a sample and e = r - clamp(r, -theta, theta), it minimises sum e^2 over the heights of the
 //! vertices: convex, piecewise quadratic, and 0 where the bound can be kept. A step that leads to a larger sum is halved;
-//! without that one patch in forty goes round in circles and counts as hopeless.
+//! without that some patches go round in circles and count as hopeless.
 
 use super::patch::{FIXED, Patch};
 use super::shapes::LANES;
