@@ -34,4 +34,5 @@ pub mod step;
 pub mod strip_unit;
 pub mod uniform;
 pub mod vertex_adder;
+pub mod vertex_cache;
 pub mod vertex_transform;

@@ -11,6 +11,7 @@
 //! | [`cosim`] | the emitted Verilog in Verilator and Icarus, lint and synthesis |
 //! | [`output`] | files and folders that appear whole or not at all |
 //! | [`frame`] | a scene to pictures, a mesh and a report |
+//! | [`method`] | ways from a height map to a mesh, and what their meshes are worth |
 //! | [`pipeline`] | a draw through remesher, height fetch and strip unit, compared as it runs |
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
 //! | [`replay`] | a block's Verilog in Verilator, run behind the block in batches |

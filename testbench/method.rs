@@ -4,10 +4,12 @@
 
 mod bisector;
 mod hardware;
+mod measured;
 mod remesher;
 mod uniform;
 
 pub use bisector::{Bisector, DEFAULT_EFFORT};
+pub use measured::{Measured, Verdict, verdict};
 pub use remesher::Remesher;
 pub use uniform::Uniform;
 

@@ -11,6 +11,11 @@
 //! | checkerboard | 0 and 1 in 8 x 8 squares |
 //! | cosine | `1/2 + cos(16 pi u') (1 - cos(6 pi v)) (1 - cos(2 pi v)) / 8`, `u' = i / width`: a period in u, constant on the first and last row |
 //! | ramp | `u` |
+//! | cubic | `1/2 + sqrt(27) / 8 (x - x^3 + y - y^3)`: an edge from rim to rim, and its middle, see a plane |
+//! | dents | 8 x 8 round hollows in a plate, `1 - sqrt(1 - (r / 0.4)^2)` with the side of a cell as unit; 1 between them |
+//! | peak | 1 in one sample of odd column and row near a third of the sides, 0 beside it |
+//! | noise | 16 bits of a hash of column and row |
+//! | waves | `1/2 + cos(16 pi u) / 2`: the same in every column of a grid of 8 cells |
 
 use std::f64::consts::PI;
 
@@ -34,17 +39,32 @@ pub enum Procedural {
     Cosine,
     /// From 0 on the left to 65535 on the right.
     Ramp,
+    /// A hill and a hollow in each axis that cancel at its ends and in its middle.
+    Cubic,
+    /// A plate with 8 x 8 round hollows.
+    Dents,
+    /// One sample.
+    Peak,
+    /// A value of its own for each sample.
+    Noise,
+    /// Eight periods of a cosine in u.
+    Waves,
 }
 
 impl Procedural {
     /// All of them.
-    pub const ALL: [Procedural; 6] = [
+    pub const ALL: [Procedural; 11] = [
         Procedural::HalfDonut,
         Procedural::Peaks,
         Procedural::Paraboloid,
         Procedural::Checkerboard,
         Procedural::Cosine,
         Procedural::Ramp,
+        Procedural::Cubic,
+        Procedural::Dents,
+        Procedural::Peak,
+        Procedural::Noise,
+        Procedural::Waves,
     ];
 
     /// The name in scene files.
@@ -56,6 +76,11 @@ impl Procedural {
             Procedural::Checkerboard => "checkerboard",
             Procedural::Cosine => "cosine",
             Procedural::Ramp => "ramp",
+            Procedural::Cubic => "cubic",
+            Procedural::Dents => "dents",
+            Procedural::Peak => "peak",
+            Procedural::Noise => "noise",
+            Procedural::Waves => "waves",
         }
     }
 }
@@ -70,11 +95,16 @@ impl HeightMap {
                     Procedural::Checkerboard => f64::from(u8::from((i * 8 / width + j * 8 / height) % 2 == 1)),
                     Procedural::Cosine => cosine(i as f64 / width as f64, fraction(j, height)),
                     Procedural::Ramp => fraction(i, width),
+                    Procedural::Dents => dents(fraction(i, width), fraction(j, height)),
+                    Procedural::Peak => f64::from(u8::from([i, j] == [width, height].map(third))),
+                    Procedural::Noise => f64::from(hash(i as u32, j as u32)) / 65535.0,
+                    Procedural::Waves => 0.5 + libm::cos(16.0 * PI * fraction(i, width)) / 2.0,
                     _ => {
                         let (x, y) = (2.0 * fraction(i, width) - 1.0, 1.0 - 2.0 * fraction(j, height));
                         match kind {
                             Procedural::HalfDonut => half_donut(x, y),
                             Procedural::Peaks => peaks(3.0 * x, 3.0 * y),
+                            Procedural::Cubic => 0.5 + 27.0f64.sqrt() / 8.0 * (x - x * x * x + y - y * y * y),
                             _ => 1.0 - (x * x + y * y) / 2.0,
                         }
                     }
@@ -89,6 +119,25 @@ impl HeightMap {
 /// From 0 in the first to 1 in the last of `count`; the middle if there is only one.
 fn fraction(index: usize, count: usize) -> f64 {
     if count == 1 { 0.5 } else { index as f64 / (count - 1) as f64 }
+}
+
+/// An odd sample near a third of an axis, where no coarse grid has a vertex; the last one of a short axis.
+fn third(count: usize) -> usize {
+    (count / 3 | 1).min(count - 1)
+}
+
+fn dents(u: f64, v: f64) -> f64 {
+    let [x, y] = [u, v].map(|at| (8.0 * at).fract() - 0.5);
+    1.0 - (1.0 - (x * x + y * y) / 0.16).max(0.0).sqrt()
+}
+
+/// Bits of a column and a row without a pattern: the finisher of MurmurHash3.
+fn hash(i: u32, j: u32) -> u16 {
+    let mut bits = i.wrapping_mul(0x9e37_79b9) ^ j.wrapping_mul(0x85eb_ca6b).rotate_left(16);
+    for factor in [0x85eb_ca6b_u32, 0xc2b2_ae35] {
+        bits = (bits ^ (bits >> 16)).wrapping_mul(factor);
+    }
+    ((bits ^ (bits >> 16)) >> 16) as u16
 }
 
 fn half_donut(x: f64, y: f64) -> f64 {

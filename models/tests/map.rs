@@ -97,6 +97,14 @@ fn map_formulas_at_any_size() {
     assert_eq!([donut.sample(50, 50), donut.sample(80, 50), donut.sample(50, 20)], [0, 65535, 65535]);
     let board = HeightMap::procedural(Procedural::Checkerboard, 16, 16);
     assert_eq!([board.sample(1, 1), board.sample(2, 1), board.sample(2, 2)], [0, 65535, 0]);
+    let cubic = HeightMap::procedural(Procedural::Cubic, 65, 65);
+    assert!([[0, 0], [32, 32], [64, 0], [64, 64]].iter().all(|[i, j]| cubic.sample(*i, *j) == 32768));
+    let dents = HeightMap::procedural(Procedural::Dents, 129, 129);
+    assert_eq!([dents.sample(8, 8), dents.sample(16, 8), dents.sample(16, 16)], [0, 65535, 65535]);
+    let peak = HeightMap::procedural(Procedural::Peak, 65, 33);
+    assert_eq!((peak.sample(21, 11), peak.samples.iter().filter(|sample| **sample != 0).count()), (65535, 1));
+    let waves = HeightMap::procedural(Procedural::Waves, 65, 5);
+    assert!((0..9).all(|period| waves.sample(8 * period, 3) == 65535) && waves.sample(4, 0) == 0);
 }
 
 #[test]
@@ -121,13 +129,18 @@ fn map_formulas_have_these_bits_on_every_machine() {
     assert_eq!(Procedural::ALL.map(hash), FORMULA_HASHES);
 }
 
-const FORMULA_HASHES: [u64; 6] = [
+const FORMULA_HASHES: [u64; 11] = [
     835349038433157863,
     3612065402848300647,
     466177306817342212,
     16846932114398764606,
     3143752065467054172,
     15525821467232479766,
+    13376903685784047592,
+    5545733903347877236,
+    7932724087465426686,
+    9896121419454550737,
+    11077361696851008516,
 ];
 
 #[test]
