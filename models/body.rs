@@ -30,9 +30,11 @@ mod normals;
 mod obj;
 mod shapes;
 mod spherical;
+mod surface;
 mod weld;
 
 pub use obj::{UvSource, read_obj, read_obj_from};
+pub use surface::{NoPoint, Surface, SurfacePoint};
 
 /// A vertex of a base mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,12 +15,15 @@ pub mod blocks;
 pub mod check;
 pub mod check_mesh;
 pub mod emit;
+mod engine;
 pub mod measure;
 mod output;
 pub mod remesh;
 pub mod run;
 mod select;
 pub mod sim;
+pub mod stability;
+pub mod tessellate;
 
 /// How a subcommand ended that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

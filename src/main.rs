@@ -21,6 +21,8 @@ struct Arguments {
 enum Command {
     Run(cli::run::Arguments),
     Bake(cli::bake::Arguments),
+    Tessellate(cli::tessellate::Arguments),
+    Stability(cli::stability::Arguments),
     Blocks(cli::blocks::Arguments),
     Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
@@ -39,6 +41,8 @@ fn main() -> ExitCode {
     let outcome = match Arguments::parse().command {
         Command::Run(arguments) => cli::run::run(&arguments),
         Command::Bake(arguments) => cli::bake::run(&arguments),
+        Command::Tessellate(arguments) => cli::tessellate::run(&arguments),
+        Command::Stability(arguments) => cli::stability::run(&arguments),
         Command::Blocks(arguments) => cli::blocks::run(&arguments),
         Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),

@@ -16,6 +16,7 @@
 //! | [`probe`] | the signals inside a block, for the recorder of waveforms |
 //! | [`replay`] | a block's Verilog in Verilator, run behind the block in batches |
 //! | [`remesh`] | whole grids through the golden models, the blocks, or their Verilog |
+//! | [`stability`] | the maps on which methods fail |
 //! | `<block>` | the binding of that block |
 
 pub mod binding;
@@ -38,6 +39,7 @@ pub mod sat_build;
 pub mod sat_fetch;
 pub mod sat_fetch_parallel;
 pub mod scoreboard;
+pub mod stability;
 pub mod stepped;
 pub mod stimulus;
 pub mod strip_unit;

@@ -5,11 +5,13 @@
 mod bisector;
 mod hardware;
 mod measured;
+mod memories;
 mod remesher;
 mod uniform;
 
 pub use bisector::{Bisector, DEFAULT_EFFORT};
 pub use measured::{Measured, Verdict, verdict};
+pub use memories::{Growing, Memories, Steered};
 pub use remesher::Remesher;
 pub use uniform::Uniform;
 

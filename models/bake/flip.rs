@@ -24,7 +24,11 @@ pub fn unflip(at: [u32; 2], size: [usize; 2], flip: Flip) -> [u32; 2] {
     [0, 1].map(|axis| if flip[axis] { size[axis] as u32 - 1 - at[axis] } else { at[axis] })
 }
 
-/// The fitted split map from the corner that promises most after the removals; heights are in the order of the flipped map.
+/// Rounds of search up to which all of it is done from one corner of the map only.
+const QUICK: u32 = 1;
+
+/// The fitted split map from the corner that promises most after the removals, or from the first corner if there is next to
+/// no search; heights are in the order of the flipped map.
 pub fn fitted_from_best_corner(
     map: &HeightMap,
     ground: &Ground<'_>,
@@ -36,6 +40,9 @@ pub fn fitted_from_best_corner(
         let samples = flip(&map.samples, map.width, flipped);
         fitted(&Ground { lattice: ground.lattice, samples: &samples }, tolerance, effort, progress)
     };
+    if effort <= QUICK {
+        return ([false; 2], fit([false; 2], effort));
+    }
     let triangles = |split: &SplitMap| golden(&ground.lattice, split, &mut |_| ()).triangles;
     let corners = [[false, false], [true, false], [false, true], [true, true]];
     let best = corners.into_iter().min_by_key(|&flipped| triangles(&fit(flipped, 0).split)).unwrap_or_default();

@@ -59,9 +59,10 @@ enum What {
     Normals,
 }
 
-fn effort(text: &str) -> std::result::Result<u32, String> {
+/// Rounds of search of an effort.
+pub fn effort(text: &str) -> std::result::Result<u32, String> {
     match text {
-        "quick" => Ok(QUICK),
+        "quick" => Ok(1),
         "default" => Ok(8),
         "high" => Ok(48),
         number => {
@@ -76,9 +77,6 @@ fn spacing(text: &str) -> std::result::Result<f64, String> {
     let sound = |spacing: &f64| (1e-6..=1e9).contains(spacing);
     text.parse().ok().filter(sound).ok_or_else(|| "a length from 0.000001 to 1000000000 is expected".into())
 }
-
-/// Rounds up to which all of it is done from one corner of the map only.
-const QUICK: u32 = 1;
 
 /// Bits of a sum: any rectangle of the largest map is exact.
 const SUM_BITS: u32 = 41;
@@ -169,9 +167,6 @@ fn prepare(
             meter.phase("splitting", 0);
             let heights = map.samples.iter().map(|&sample| u32::from(sample) << 4).collect();
             ([false; 2], bake::unfitted(&ground, bound), heights)
-        } else if arguments.effort <= QUICK {
-            let fit = bake::fitted(&ground, bound, arguments.effort, meter);
-            ([false; 2], fit.split, fit.heights)
         } else {
             let (flipped, fit) = bake::fitted_from_best_corner(&map, &ground, bound, arguments.effort, meter);
             (flipped, fit.split, fit.heights)

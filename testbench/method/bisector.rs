@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Bisection under a bound, with fitted heights or with those of the map.
 
-use super::hardware::draw;
+use super::memories::{Growing, Memories, Steered};
 use super::{Engine, Goal, Method, MethodError, Tessellation};
-use relief_models::bake::{Ground, Tolerance, fitted, unfitted};
-use relief_models::bisector::{Lattice, SplitMap, Vertex, golden};
+use relief_models::bake::{Ground, Tolerance, fitted_from_best_corner, saturated, unfitted};
+use relief_models::bisector::Lattice;
 use relief_models::map::HeightMap;
-use relief_models::mesh::{Progress, TriangleMesh};
-use rustc_hash::FxHashMap;
+use relief_models::mesh::Progress;
 use std::time::Instant;
 
 /// Rounds of search of the default effort.
@@ -20,19 +19,6 @@ pub struct Bisector {
     pub effort: Option<u32>,
 }
 
-/// What the memories hold for a map.
-struct Prepared {
-    lattice: Lattice,
-    split: SplitMap,
-    heights: Vec<u32>,
-}
-
-impl Prepared {
-    fn triangles(&self) -> u64 {
-        golden(&self.lattice, &self.split, &mut |_| ()).triangles
-    }
-}
-
 fn lattice_of(map: &HeightMap) -> Result<Lattice, MethodError> {
     let lattice = Lattice::of(map.width as u32, map.height as u32, false);
     lattice.ok_or_else(|| {
@@ -42,24 +28,35 @@ fn lattice_of(map: &HeightMap) -> Result<Lattice, MethodError> {
 }
 
 impl Bisector {
-    fn prepare(self, map: &HeightMap, bound: Tolerance, progress: &dyn Progress) -> Result<Prepared, MethodError> {
+    fn prepare(self, map: &HeightMap, bound: Tolerance, progress: &dyn Progress) -> Result<Memories, MethodError> {
         let lattice = lattice_of(map)?;
         let ground = Ground { lattice, samples: &map.samples };
-        let (split, heights) = match self.effort {
+        let (flipped, split, heights) = match self.effort {
             Some(effort) => {
-                let fit = fitted(&ground, bound, effort, progress);
-                (fit.split, fit.heights)
+                let (flipped, fit) = fitted_from_best_corner(map, &ground, bound, effort, progress);
+                (flipped, fit.split, fit.heights)
             }
             None => {
                 let heights = map.samples.iter().map(|&sample| u32::from(sample) << 4).collect();
-                (unfitted(&ground, bound), heights)
+                ([false; 2], unfitted(&ground, bound), heights)
             }
         };
-        Ok(Prepared { lattice, split, heights })
+        let claim = f64::from(bound.over()) / f64::from(bound.under());
+        Ok(Memories { lattice, steered: Steered::Split(split), heights, flipped, claim })
+    }
+
+    /// The memories for a bound of the draw that grows with the distance from an eye, with the heights of the map.
+    ///
+    /// # Errors
+    /// The map is too small or too large.
+    pub fn growing(map: &HeightMap, growing: Growing, progress: &dyn Progress) -> Result<Memories, MethodError> {
+        let lattice = lattice_of(map)?;
+        let found = saturated(&Ground { lattice, samples: &map.samples }, progress);
+        Ok(Memories::of_errors(lattice, &map.samples, found.errors, found.fraction_bits, growing))
     }
 
     /// The smallest bound, down to a tenth of a map unit, whose mesh has at most so many triangles.
-    fn fewest(self, map: &HeightMap, most: u64, progress: &dyn Progress) -> Result<(Tolerance, Prepared), MethodError> {
+    fn fewest(self, map: &HeightMap, most: u64, progress: &dyn Progress) -> Result<Memories, MethodError> {
         let tenths = |tenths: u32| Tolerance::new(tenths, 10).unwrap_or_else(largest);
         let (mut low, mut high) = (0, 655_350);
         // The map's own heights tell where to look: with fitted ones a mesh has fewer, and never more.
@@ -68,11 +65,11 @@ impl Bisector {
             let middle = low + (high - low) / 2;
             if plain.prepare(map, tenths(middle), &())?.triangles() <= most { high = middle } else { low = middle + 1 }
         }
-        let mut best = (tenths(high), self.prepare(map, tenths(high), progress)?);
-        if best.1.triangles() > most {
+        let mut best = self.prepare(map, tenths(high), progress)?;
+        if best.triangles() > most {
+            let fewest = best.triangles();
             return Err(MethodError::Unfit(format!(
-                "no mesh of {most} triangles covers the map; {} are the fewest",
-                best.1.triangles()
+                "no mesh of {most} triangles covers the map; {fewest} are the fewest"
             )));
         }
         if self.effort.is_some() {
@@ -81,7 +78,7 @@ impl Bisector {
                 let middle = low + (high - low) / 2;
                 let prepared = self.prepare(map, tenths(middle), progress)?;
                 if prepared.triangles() <= most {
-                    (high, best) = (middle, (tenths(middle), prepared));
+                    (high, best) = (middle, prepared);
                 } else {
                     low = middle + 1;
                 }
@@ -93,54 +90,6 @@ impl Bisector {
 
 fn largest() -> Tolerance {
     Tolerance::new(65535, 1).unwrap_or_else(|| unreachable!("65535 is a bound"))
-}
-
-/// Collects triangles, with each vertex once.
-#[derive(Default)]
-struct Builder {
-    mesh: TriangleMesh,
-    numbers: FxHashMap<[u32; 2], u32>,
-}
-
-impl Builder {
-    fn triangle(&mut self, corners: [Vertex; 3]) {
-        let triangle = corners.map(|[u, v, z]| {
-            *self.numbers.entry([u, v]).or_insert_with(|| {
-                self.mesh.positions.push([f64::from(u), f64::from(v), f64::from(z) / 16.0]);
-                self.mesh.positions.len() as u32 - 1
-            })
-        });
-        self.mesh.triangles.push(triangle);
-    }
-}
-
-fn tessellate(
-    prepared: &Prepared,
-    bound: Option<Tolerance>,
-    engine: Engine,
-    preparation_seconds: f64,
-    progress: &dyn Progress,
-) -> Result<Tessellation, MethodError> {
-    let Prepared { lattice, split, heights } = prepared;
-    // The triangles alone: what a mesh needs besides is no part of the model.
-    let begun = Instant::now();
-    let mut sum = 0;
-    golden(lattice, split, &mut |triangle| sum ^= triangle.corners[2][0]);
-    let golden_seconds = begun.elapsed().as_secs_f64();
-    std::hint::black_box(sum);
-    let mut builder = Builder::default();
-    let hardware = match engine {
-        Engine::Golden => {
-            let height = |[u, v]: [u32; 2]| heights[v as usize * lattice.width as usize + u as usize];
-            golden(lattice, split, &mut |triangle| {
-                builder.triangle(triangle.corners.map(|at| [at[0], at[1], height(at)]));
-            });
-            None
-        }
-        _ => Some(draw(lattice, split, heights, engine, progress, &mut |corners| builder.triangle(corners))?),
-    };
-    let claim = bound.map(|bound| f64::from(bound.over()) / f64::from(bound.under()));
-    Ok(Tessellation { mesh: builder.mesh, claim, hardware, preparation_seconds, golden_seconds })
 }
 
 impl Method for Bisector {
@@ -172,10 +121,10 @@ impl Method for Bisector {
         progress: &dyn Progress,
     ) -> Result<Tessellation, MethodError> {
         let begun = Instant::now();
-        let (bound, prepared) = match goal {
-            Goal::Bound(bound) => (bound, self.prepare(map, bound, progress)?),
+        let memories = match goal {
+            Goal::Bound(bound) => self.prepare(map, bound, progress)?,
             Goal::Triangles(most) => self.fewest(map, most, progress)?,
         };
-        tessellate(&prepared, Some(bound), engine, begun.elapsed().as_secs_f64(), progress)
+        memories.tessellate(engine, begun.elapsed().as_secs_f64(), progress)
     }
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The bisector on a map, stepped in Rust, with its Verilog behind it on request; every beat is compared with golden.
 
-use super::{Engine, Hardware, MethodError};
+use super::{Engine, Hardware, Memories, MethodError};
 use crate::binding::{Beat, Binding};
 use crate::bisector::{BisectorBinding, command_beat, corners_of, load_beats};
 use crate::device::{Layout, Stage};
 use crate::replay::Replay;
 use crate::scoreboard::PATIENCE;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
-use relief_models::bisector::{Bound, Command, Counts, Lattice, Side, SplitMap, Triangle, Vertex, golden};
+use relief_models::bisector::{Command, Counts, Lattice, Side, Triangle, Vertex};
 use relief_models::mesh::Progress;
 
 /// Words of an output beat: side, start and walker, and the end of the draw.
@@ -16,10 +16,10 @@ const FLAGS: std::ops::Range<usize> = 3..6;
 const END: usize = 6;
 const CYCLES: usize = 7;
 
-/// The narrowest width set whose lattice holds a map; the errors of a split map have one bit.
-pub(super) fn width_set(lattice: &Lattice) -> Result<&'static WidthSet, MethodError> {
-    let fits = WIDTH_SETS.iter().filter(|set| set.lattice_bits >= lattice.levels as usize);
-    fits.min_by_key(|set| (set.lattice_bits, set.error_bits)).ok_or_else(|| {
+/// The narrowest width set whose lattice holds a map, and whose words hold its errors.
+pub(super) fn width_set(lattice: &Lattice, error_bits: usize) -> Result<&'static WidthSet, MethodError> {
+    let fits = |set: &&WidthSet| set.lattice_bits >= lattice.levels as usize && set.error_bits >= error_bits;
+    WIDTH_SETS.iter().filter(fits).min_by_key(|set| (set.lattice_bits, set.error_bits)).ok_or_else(|| {
         let most = WIDTH_SETS.iter().map(|set| set.lattice_bits).max().unwrap_or_default();
         MethodError::Unfit(format!("no width set holds the map; {0} x {0} samples are the most", (1 << most) + 1))
     })
@@ -36,19 +36,17 @@ struct Expected {
 /// # Errors
 /// The hardware does not send what golden does, or the emitted module does not follow it.
 pub(super) fn draw(
-    lattice: &Lattice,
-    split: &SplitMap,
-    heights: &[u32],
+    memories: &Memories,
     engine: Engine,
     progress: &dyn Progress,
     sink: &mut dyn FnMut([Vertex; 3]),
 ) -> Result<Hardware, MethodError> {
-    let set = width_set(lattice)?;
+    let lattice = &memories.lattice;
+    let error_bits = memories.error_bits();
+    let set = width_set(lattice, error_bits)?;
     let mut expected = Expected { triangles: Vec::new(), counts: Counts::default() };
-    let height = |[u, v]: [u32; 2]| heights[v as usize * lattice.width as usize + u as usize];
-    expected.counts = golden(lattice, split, &mut |triangle| {
-        let corners = triangle.corners.map(|at| [at[0], at[1], height(at)]);
-        expected.triangles.push((*triangle, corners));
+    expected.counts = memories.golden(&mut |triangle| {
+        expected.triangles.push((*triangle, triangle.corners.map(|at| memories.vertex(at))));
     });
     let mut stage = Stage::new(BisectorBinding.device(set));
     stage.inputs[stage.layout.out_ready] = 1;
@@ -64,8 +62,8 @@ pub(super) fn draw(
     };
     let total = lattice.vertices() as u64 + expected.counts.turns;
     progress.phase("simulating", total);
-    let draw = command_beat(&Command::Draw(Bound::constant(0)));
-    let mut beats = load_beats(lattice, |at| split.get(at).into(), |at| heights[at]).chain([draw]);
+    let draw = command_beat(&Command::Draw(memories.bound()));
+    let mut beats = load_beats(lattice, |at| memories.error(at), |at| memories.heights[at]).chain([draw]);
     let mut offered = beats.next();
     let mut decoder = Decoder { layout: stage.layout.clone(), sent: 0, cycles: None };
     let (mut silent, mut ended) = (0, false);
@@ -109,7 +107,7 @@ pub(super) fn draw(
         cycles: decoder.cycles.unwrap_or_default(),
         // An error a visit, a height for each new vertex and the two that a strip begins with.
         reads: expected.counts.visits + expected.counts.triangles + 2 * expected.counts.strips,
-        memory_bits: lattice.vertices() as u64 + 20 * width * height,
+        memory_bits: (error_bits * lattice.vertices()) as u64 + 20 * width * height,
     })
 }
 

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief stability`: every method on the maps where methods fail.
+
+use std::io::{stderr, stdout};
+
+use relief_testbench::method::{Goal, METHODS, Verdict};
+use relief_testbench::stability::{FailureMap, Row, maps, rows};
+
+use super::engine::EngineName;
+use super::{Meter, Outcome, Result, write_all};
+
+/// Tessellate the maps on which methods are known to fail, with every method
+///
+/// Each map is tessellated under a bound of 2 % of its range, and with the triangles of a grid of 8 x 8 cells. A mesh that
+/// is not whole, or has an error above its method's claim, is BROKEN and fails the command. Errors are in percent of the
+/// map's range.
+#[derive(clap::Args)]
+pub struct Arguments {
+    /// What computes the meshes
+    #[arg(long, value_enum, default_value_t = EngineName::Golden)]
+    engine: EngineName,
+}
+
+/// Runs all of them, and prints a table.
+pub fn run(arguments: &Arguments) -> Result {
+    let engine = arguments.engine.resolve()?;
+    let meter = Meter::new();
+    let done = rows(METHODS, engine, &meter);
+    meter.finish();
+    let rows = match done {
+        Ok(rows) => rows,
+        Err(error) if error.is_mismatch() => {
+            write_all(stderr(), &format!("mismatch: {error}\n"))?;
+            return Ok(Outcome::Mismatch);
+        }
+        Err(error) => return Err(error.into()),
+    };
+    write_all(stdout(), &table(&maps(), &rows))?;
+    let broken = rows.iter().filter(|row| row.is_broken()).count();
+    let held = rows.iter().filter(|row| row.result.as_ref().is_ok_and(|made| made.claim.is_some())).count() - broken;
+    write_all(stdout(), &format!("\n{} meshes: {held} claims hold, {broken} broken\n", rows.len()))?;
+    Ok(if broken == 0 { Outcome::Agreed } else { Outcome::Mismatch })
+}
+
+fn table(maps: &[FailureMap], rows: &[Row]) -> String {
+    let mut text = String::new();
+    for FailureMap { name, why, map } in maps {
+        let (low, high) = map.samples.iter().fold((u16::MAX, 0), |(low, high), &at| (at.min(low), at.max(high)));
+        text += &format!("{name}, {} x {}: {why}\n", map.width, map.height);
+        let heads = ["method", "goal", "triangles", "max %", "rms %", "claim %", "slack %", "cycles"];
+        text += &cells(&heads.map(str::to_owned), "verdict");
+        // A map of one height has no range; its errors are shares of one step.
+        let share = |error: f64| format!("{:.4}", 100.0 * error / f64::from(high.saturating_sub(low)).max(1.0));
+        for Row { method, goal, result, .. } in rows.iter().filter(|row| row.map == *name) {
+            let goal = match goal {
+                Goal::Bound(_) => "bound".to_owned(),
+                Goal::Triangles(most) => format!("{most} triangles"),
+            };
+            let dash = || "-".to_owned();
+            text += &match result {
+                Err(refusal) => {
+                    cells(&[(*method).to_owned(), goal, dash(), dash(), dash(), dash(), dash(), dash()], refusal)
+                }
+                Ok(made) => {
+                    let slack = if let Verdict::Holds { slack } = made.verdict { share(slack) } else { dash() };
+                    let cycles = made.hardware.map_or_else(dash, |hardware| hardware.cycles.to_string());
+                    let claim = made.claim.map_or_else(dash, share);
+                    let (max, rms) = (share(made.max), share(made.rms));
+                    let row = [(*method).to_owned(), goal, made.triangles.to_string(), max, rms, claim, slack, cycles];
+                    cells(&row, made.verdict.name())
+                }
+            };
+        }
+        text += "\n";
+    }
+    text.truncate(text.trim_end().len());
+    text + "\n"
+}
+
+fn cells([method, goal, figures @ ..]: &[String; 8], verdict: &str) -> String {
+    let [triangles, max, rms, claim, slack, cycles] = figures;
+    format!("  {method:21} {goal:13} {triangles:>9} {max:>9} {rms:>8} {claim:>9} {slack:>9} {cycles:>7}  {verdict}\n")
+}
