@@ -49,5 +49,5 @@ pub use normals::normals;
 pub use saturated::{MOST_FRACTION_BITS, Saturated, saturated};
 pub use surface::{Excess, Ground};
 pub use tolerance::Tolerance;
-pub use unfitted::unfitted;
+pub use unfitted::{unfitted, unfitted_with_seams};
 pub use voids::{Filled, fill};

@@ -79,6 +79,25 @@ impl HeightMap {
     pub fn sample(&self, i: usize, j: usize) -> u16 {
         self.samples[j * self.width + i]
     }
+
+    /// The map with its first column, or row, once more behind the last one of each axis that repeats: a whole period from
+    /// rim to rim.
+    pub fn unrolled(&self, wrap: [Wrap; 2]) -> HeightMap {
+        let [width, height] =
+            [self.width + usize::from(wrap[0] == Wrap::Repeat), self.height + usize::from(wrap[1] == Wrap::Repeat)];
+        let samples = (0..height).flat_map(|j| (0..width).map(move |i| self.sample(i % self.width, j % self.height)));
+        HeightMap { width, height, samples: samples.collect() }
+    }
+
+    /// The map with one value, the greatest, all along its first row, and along its last one: poles.
+    pub fn with_poles(&self) -> HeightMap {
+        let mut map = self.clone();
+        for j in [0, self.height - 1] {
+            let row = &mut map.samples[j * self.width..(j + 1) * self.width];
+            row.fill(row.iter().copied().max().unwrap_or(0));
+        }
+        map
+    }
 }
 
 /// Sizes of the levels of a map's pyramid, level 0 first: as many as [`max_levels`].

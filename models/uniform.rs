@@ -80,7 +80,7 @@ pub fn with_triangles(map: &HeightMap, triangles: usize) -> Result<TriangleMesh,
 
 /// Columns and rows of at most `count` cells, none more than `most`. The longer side is tried from the number on that
 /// makes cells square; whichever number within an eighth of it leaves the fewest cells over is taken.
-fn cells(count: usize, most: [usize; 2]) -> [usize; 2] {
+pub fn cells(count: usize, most: [usize; 2]) -> [usize; 2] {
     if count >= most[0].saturating_mul(most[1]) {
         return most;
     }

@@ -17,7 +17,7 @@ pub use uniform::Uniform;
 
 use crate::replay::ReplayError;
 use relief_models::bake::Tolerance;
-use relief_models::map::HeightMap;
+use relief_models::map::{HeightMap, Wrap};
 use relief_models::measure::MeasureError;
 use relief_models::mesh::{Progress, TriangleMesh};
 use relief_models::uniform::GridError;
@@ -31,6 +31,20 @@ pub enum Engine {
     Rust,
     /// The emitted Verilog in Verilator, on the inputs of the hardware in Rust, compared with it cycle for cycle.
     Verilator,
+}
+
+/// What is beyond the rims of a map.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Borders {
+    /// In u and in v. The rims of an axis that repeats meet: their vertices stand at the same places, in equal heights.
+    pub wrap: [Wrap; 2],
+    /// Whether the first and the last row are a point each. The map has one value along them.
+    pub poles: bool,
+}
+
+impl Borders {
+    /// A map that ends at its rims.
+    pub const CLAMP: Self = Self { wrap: [Wrap::Clamp; 2], poles: false };
 }
 
 /// What a mesh is to keep.
@@ -115,17 +129,31 @@ pub trait Method: Sync {
     fn has_hardware(&self) -> bool;
     /// Goals that show what the method can do on a map, from coarse to fine, `count` of them at the most.
     fn goals(&self, map: &HeightMap, count: usize) -> Vec<Goal>;
-    /// The mesh of a map.
+    /// The mesh of a map. Where it repeats, the mesh reaches to one sample beyond the last: see [`HeightMap::unrolled`].
     ///
     /// # Errors
-    /// A sentence: map or goal cannot be served, an engine cannot run; or hardware and golden model disagree.
+    /// A sentence: map, borders or goal cannot be served, an engine cannot run; or hardware and golden model disagree.
+    fn tessellate_within(
+        &self,
+        map: &HeightMap,
+        borders: Borders,
+        goal: Goal,
+        engine: Engine,
+        progress: &dyn Progress,
+    ) -> Result<Tessellation, MethodError>;
+    /// The mesh of a map that ends at its rims.
+    ///
+    /// # Errors
+    /// As [`Method::tessellate_within`].
     fn tessellate(
         &self,
         map: &HeightMap,
         goal: Goal,
         engine: Engine,
         progress: &dyn Progress,
-    ) -> Result<Tessellation, MethodError>;
+    ) -> Result<Tessellation, MethodError> {
+        self.tessellate_within(map, Borders::CLAMP, goal, engine, progress)
+    }
 }
 
 /// Every method.

@@ -1,7 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A base mesh as a function of its place on the map.
+//!
+//! At a pole, the triangle `(a, b, pole_b)` and the one without area beside it, `(a, pole_b, pole_a)`, share a piece of the
+//! map from `ua` to `ub`. All of it goes onto the triangle that has an area, row by row:
+//!
+//! ```text
+//! s = (u - ua) / (ub - ua)    t = (v - vp) / (va + s (vb - va) - vp)    point = pole + t (a + s (b - a) - pole)
+//! ```
 
 use glam::{DMat3, DVec2, DVec3, dvec2};
+use rustc_hash::FxHashMap;
 
 use super::BaseMesh;
 
@@ -40,6 +48,8 @@ pub struct Surface<'a> {
     side: usize,
     cells: Vec<Vec<u32>>,
     apart: f64,
+    /// Vertices a, b and pole of the triangles at poles.
+    poles: FxHashMap<u32, [u32; 3]>,
 }
 
 impl<'a> Surface<'a> {
@@ -58,7 +68,7 @@ impl<'a> Surface<'a> {
         }
         let reach = |pick: fn(DVec3, DVec3) -> DVec3, from| mesh.vertices.iter().map(|v| v.position).fold(from, pick);
         let size = (reach(DVec3::max, DVec3::NEG_INFINITY) - reach(DVec3::min, DVec3::INFINITY)).max_element();
-        Self { mesh, side, cells, apart: APART * size.max(0.0) }
+        Self { mesh, side, cells, apart: APART * size.max(0.0), poles: poles(mesh) }
     }
 
     /// The point at a place of `[0, 1] x [0, 1]`. Normals are interpolated and normalised.
@@ -75,6 +85,10 @@ impl<'a> Surface<'a> {
             if inside < -ON_EDGE {
                 continue;
             }
+            let (corners, weights) = self.poles.get(number).map_or((corners, weights), |cone| {
+                let corners = cone.map(|corner| self.mesh.vertices[corner as usize]);
+                (corners, row_by_row(corners.map(|corner| corner.uv), uv))
+            });
             let position = DMat3::from_cols_array_2d(&corners.map(|corner| corner.position.to_array())) * weights;
             let normal = DMat3::from_cols_array_2d(&corners.map(|corner| corner.normal.to_array())) * weights;
             // Opposite normals have no mean; any corner's will do.
@@ -88,6 +102,42 @@ impl<'a> Surface<'a> {
         }
         found.map(|(_, point)| point).ok_or(NoPoint::Uncovered)
     }
+}
+
+/// The triangles at poles, those without area and those beside them.
+fn poles(mesh: &BaseMesh) -> FxHashMap<u32, [u32; 3]> {
+    let position = |corner: u32| mesh.vertices[corner as usize].position;
+    let u = |corner: u32| mesh.vertices[corner as usize].uv.x;
+    // The two copies of a pole and the corner across.
+    let stitch = |triangle: &[u32; 3]| {
+        let turns = [0, 1, 2].map(|k| [0, 1, 2].map(|at| triangle[(at + k) % 3]));
+        turns
+            .into_iter()
+            .find(|[a, p, q]| position(*p) == position(*q) && position(*p) != position(*a) && u(*p) != u(*q))
+    };
+    let stitches: Vec<_> =
+        mesh.triangles.iter().zip(0..).filter_map(|(t, number)| Some((stitch(t)?, number))).collect();
+    let by_edge: FxHashMap<[u32; 2], u32> =
+        stitches.iter().flat_map(|([a, p, q], number)| [([*a, *p], *number), ([*a, *q], *number)]).collect();
+    let mut poles = FxHashMap::default();
+    for (triangle, number) in mesh.triangles.iter().zip(0..).filter(|(triangle, _)| stitch(triangle).is_none()) {
+        for [a, b, pole] in
+            [[0, 1, 2], [1, 0, 2], [1, 2, 0], [2, 1, 0], [2, 0, 1], [0, 2, 1]].map(|at| at.map(|at| triangle[at]))
+        {
+            // The stitch is on the other side of a, so the pole has the longitude of b.
+            if let Some(stitch) = by_edge.get(&[a, pole]).filter(|_| u(b) == u(pole)) {
+                poles.extend([(number, [a, b, pole]), (*stitch, [a, b, pole])]);
+            }
+        }
+    }
+    poles
+}
+
+/// Weights of a, b and the pole.
+fn row_by_row([a, b, pole]: [DVec2; 3], at: DVec2) -> DVec3 {
+    let s = (at.x - a.x) / (b.x - a.x);
+    let t = (at.y - pole.y) / (a.y + s * (b.y - a.y) - pole.y);
+    DVec3::new(t * (1.0 - s), t * s, 1.0 - t)
 }
 
 fn cell(side: usize, uv: DVec2) -> [usize; 2] {

@@ -9,7 +9,7 @@ use relief_models::bisector::MAX_SIDE;
 use relief_models::map::{HeightMap, read_values};
 use relief_models::mesh::{Format, TriangleMesh};
 use relief_models::vertex_cache::ENTRIES;
-use relief_testbench::method::{self, Bisector, Goal, Growing, METHODS, Measured, Memories, Tessellation};
+use relief_testbench::method::{self, Bisector, Borders, Goal, Growing, METHODS, Measured, Memories, Tessellation};
 use relief_testbench::output::OutputFile;
 
 use super::engine::EngineName;
@@ -113,13 +113,13 @@ pub fn run(arguments: &Arguments) -> Result {
 
 impl Arguments {
     /// The mesh of a map for a goal.
-    fn tessellate(&self, map: &HeightMap, goal: Goal, meter: &Meter) -> Worked<Tessellation> {
+    fn tessellate(&self, map: &HeightMap, borders: Borders, goal: Goal, meter: &Meter) -> Worked<Tessellation> {
         let engine = self.engine.resolve()?;
         // Only this one searches.
         let fitted = Bisector { effort: Some(self.effort) };
         let method = method::find(&self.method).ok_or("no such method")?;
         let method = if method.name() == method::Method::name(&fitted) { &fitted } else { method };
-        Ok(method.tessellate(map, goal, engine, meter)?)
+        Ok(method.tessellate_within(map, borders, goal, engine, meter)?)
     }
 
     fn growing(&self, base: Tolerance) -> Option<Growing> {
@@ -166,7 +166,7 @@ fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
             let memories = Bisector::growing(&map, growing, meter).map_err(|error| named(error.into()))?;
             memories.tessellate(engine, begun.elapsed().as_secs_f64(), meter).map_err(|error| named(error.into()))?
         }
-        _ => arguments.tessellate(&map, goal, meter).map_err(named)?,
+        _ => arguments.tessellate(&map, Borders::CLAMP, goal, meter).map_err(named)?,
     };
     measured(arguments, &map, tessellation, meter)
 }

@@ -2,10 +2,10 @@
 //! Bisection under a bound, with fitted heights or with those of the map.
 
 use super::memories::{Growing, Memories, Steered};
-use super::{Engine, Goal, Method, MethodError, Tessellation};
-use relief_models::bake::{Ground, Tolerance, fitted_from_best_corner, saturated, unfitted};
+use super::{Borders, Engine, Goal, Method, MethodError, Tessellation};
+use relief_models::bake::{Ground, Tolerance, fitted_from_best_corner, saturated, unfitted_with_seams};
 use relief_models::bisector::Lattice;
-use relief_models::map::HeightMap;
+use relief_models::map::{HeightMap, Wrap};
 use relief_models::mesh::Progress;
 use std::time::Instant;
 
@@ -28,7 +28,14 @@ fn lattice_of(map: &HeightMap) -> Result<Lattice, MethodError> {
 }
 
 impl Bisector {
-    fn prepare(self, map: &HeightMap, bound: Tolerance, progress: &dyn Progress) -> Result<Memories, MethodError> {
+    /// `map` is unrolled.
+    fn prepare(
+        self,
+        map: &HeightMap,
+        seams: [bool; 2],
+        bound: Tolerance,
+        progress: &dyn Progress,
+    ) -> Result<Memories, MethodError> {
         let lattice = lattice_of(map)?;
         let ground = Ground { lattice, samples: &map.samples };
         let (flipped, split, heights) = match self.effort {
@@ -38,7 +45,7 @@ impl Bisector {
             }
             None => {
                 let heights = map.samples.iter().map(|&sample| u32::from(sample) << 4).collect();
-                ([false; 2], unfitted(&ground, bound), heights)
+                ([false; 2], unfitted_with_seams(&ground, bound, seams), heights)
             }
         };
         let claim = f64::from(bound.over()) / f64::from(bound.under());
@@ -56,16 +63,26 @@ impl Bisector {
     }
 
     /// The smallest bound, down to a tenth of a map unit, whose mesh has at most so many triangles.
-    fn fewest(self, map: &HeightMap, most: u64, progress: &dyn Progress) -> Result<Memories, MethodError> {
+    fn fewest(
+        self,
+        map: &HeightMap,
+        seams: [bool; 2],
+        most: u64,
+        progress: &dyn Progress,
+    ) -> Result<Memories, MethodError> {
         let tenths = |tenths: u32| Tolerance::new(tenths, 10).unwrap_or_else(largest);
         let (mut low, mut high) = (0, 655_350);
         // The map's own heights tell where to look: with fitted ones a mesh has fewer, and never more.
         let plain = Bisector { effort: None };
         while low < high {
             let middle = low + (high - low) / 2;
-            if plain.prepare(map, tenths(middle), &())?.triangles() <= most { high = middle } else { low = middle + 1 }
+            if plain.prepare(map, seams, tenths(middle), &())?.triangles() <= most {
+                high = middle
+            } else {
+                low = middle + 1
+            }
         }
-        let mut best = self.prepare(map, tenths(high), progress)?;
+        let mut best = self.prepare(map, seams, tenths(high), progress)?;
         if best.triangles() > most {
             let fewest = best.triangles();
             return Err(MethodError::Unfit(format!(
@@ -76,7 +93,7 @@ impl Bisector {
             let (mut low, mut high) = (high / 4, high);
             for _ in 0..6 {
                 let middle = low + (high - low) / 2;
-                let prepared = self.prepare(map, tenths(middle), progress)?;
+                let prepared = self.prepare(map, seams, tenths(middle), progress)?;
                 if prepared.triangles() <= most {
                     (high, best) = (middle, prepared);
                 } else {
@@ -113,17 +130,24 @@ impl Method for Bisector {
         let tenths = (0..count as u32).map(|halvings| (range / 4) >> halvings).filter(|&tenths| tenths > 0);
         tenths.filter_map(|tenths| Tolerance::new(tenths, 10)).map(Goal::Bound).collect()
     }
-    fn tessellate(
+    fn tessellate_within(
         &self,
         map: &HeightMap,
+        borders: Borders,
         goal: Goal,
         engine: Engine,
         progress: &dyn Progress,
     ) -> Result<Tessellation, MethodError> {
         let begun = Instant::now();
+        let seams = borders.wrap.map(|wrap| wrap == Wrap::Repeat);
+        if self.effort.is_some() && seams.contains(&true) {
+            let what = "the map repeats, and heights are fitted to maps that clamp";
+            return Err(MethodError::Unfit(format!("{what}; bisector-interpolated keeps the seam closed")));
+        }
+        let map = &map.unrolled(borders.wrap);
         let memories = match goal {
-            Goal::Bound(bound) => self.prepare(map, bound, progress)?,
-            Goal::Triangles(most) => self.fewest(map, most, progress)?,
+            Goal::Bound(bound) => self.prepare(map, seams, bound, progress)?,
+            Goal::Triangles(most) => self.fewest(map, seams, most, progress)?,
         };
         memories.tessellate(engine, begun.elapsed().as_secs_f64(), progress)
     }

@@ -3,12 +3,13 @@
 //! the maximum level that fits them (Gumhold and Huettner 1999).
 
 use super::uniform::coarsest;
-use super::{Engine, Goal, Hardware, Method, MethodError, Tessellation};
+use super::{Borders, Engine, Goal, Hardware, Method, MethodError, Tessellation};
 use crate::remesh::{self, GridTriangle, SCALE, remesh};
-use relief_models::map::HeightMap;
+use relief_models::map::{HeightMap, Wrap};
 use relief_models::mesh::{Progress, TriangleMesh};
-use relief_models::mip_build::{Centring, Extremum, Pyramid, Wrap, golden, max_levels};
+use relief_models::mip_build::{Centring, Extremum, Pyramid, golden, golden_with_poles, max_levels};
 use relief_models::mip_fetch::{Filter, fetch};
+use relief_models::uniform::cells;
 use rustc_hash::FxHashMap;
 use std::time::Instant;
 
@@ -20,38 +21,44 @@ pub struct Remesher;
 const MOST: usize = 8191;
 
 /// The map, its levels, and the grid of voxels that lies over it.
-struct Laid<'a> {
-    map: &'a HeightMap,
+struct Laid {
     pyramid: Pyramid,
+    /// Samples from rim to rim.
+    extent: [usize; 2],
     /// Voxels along each side.
     cells: [usize; 2],
     level: usize,
 }
 
-impl<'a> Laid<'a> {
-    fn new(map: &'a HeightMap, step: usize) -> Result<Self, MethodError> {
-        let sides = [map.width, map.height];
-        if sides.iter().any(|side| !(2..=MOST).contains(side)) {
-            let size = format!("the map has {} x {} samples", map.width, map.height);
-            return Err(MethodError::Unfit(format!("{size}; the remesher takes 2 x 2 to {MOST} x {MOST}")));
-        }
-        let cells = sides.map(|side| (side - 1).div_ceil(step));
+/// Samples from rim to rim.
+fn extent(map: &HeightMap, borders: Borders) -> Result<[usize; 2], MethodError> {
+    let sides = [map.width, map.height];
+    if sides.iter().any(|side| !(2..=MOST).contains(side)) {
+        let size = format!("the map has {} x {} samples", map.width, map.height);
+        return Err(MethodError::Unfit(format!("{size}; the remesher takes 2 x 2 to {MOST} x {MOST}")));
+    }
+    Ok([0, 1].map(|axis| sides[axis] - usize::from(borders.wrap[axis] == Wrap::Clamp)))
+}
+
+impl Laid {
+    fn new(map: &HeightMap, borders: Borders, cells: [usize; 2]) -> Result<Self, MethodError> {
+        let extent = extent(map, borders)?;
         // The footprint of a voxel: its number of samples, the level one below what it covers.
-        let covered = [0, 1].map(|axis| (sides[axis] - 1) as f64 / cells[axis] as f64);
+        let covered = [0, 1].map(|axis| extent[axis] as f64 / cells[axis] as f64);
         let mean = (covered[0] * covered[1]).sqrt();
-        let levels = max_levels(map.width, map.height, Centring::Node, [Wrap::Clamp; 2]);
+        let levels = max_levels(map.width, map.height, Centring::Node, borders.wrap);
         let thresholds = (0..levels).take_while(|&k| std::f64::consts::SQRT_2 * f64::from(1u32 << k) <= mean).count();
         let level = thresholds.saturating_sub(1).min(levels - 1);
-        let pyramid =
-            golden(map.width, map.height, &map.samples, Centring::Node, [Wrap::Clamp; 2], Extremum::Max, level + 1)
-                .map_err(|error| MethodError::Unfit(format!("the levels of the map: {error}")))?;
-        Ok(Self { map, pyramid, cells, level })
+        let build = if borders.poles { golden_with_poles } else { golden };
+        let (width, height, samples) = (map.width, map.height, &map.samples);
+        let pyramid = build(width, height, samples, Centring::Node, borders.wrap, Extremum::Max, level + 1)
+            .map_err(|error| MethodError::Unfit(format!("the levels of the map: {error}")))?;
+        Ok(Self { pyramid, extent, cells, level })
     }
 
     /// Where a vertex of the grid stands in samples, and its height.
     fn vertex(&self, at: [i64; 2]) -> [f64; 3] {
-        let sides = [self.map.width, self.map.height];
-        let sample = |axis: usize| at[axis] as f64 / SCALE as f64 * (sides[axis] - 1) as f64 / self.cells[axis] as f64;
+        let sample = |axis: usize| at[axis] as f64 / SCALE as f64 * self.extent[axis] as f64 / self.cells[axis] as f64;
         let [u, v] = [sample(0), sample(1)];
         let texel = |at: f64| (at * 65536.0).round() as u32;
         let height = fetch(&self.pyramid, self.level, texel(u), texel(v), Filter::Bilinear);
@@ -79,6 +86,24 @@ impl<'a> Laid<'a> {
     }
 }
 
+/// The most voxels whose mesh has at most so many triangles: two a voxel, and some more where base edges cut them.
+fn fewer(
+    extent: [usize; 2],
+    most: u64,
+    triangles: impl Fn([usize; 2]) -> Result<u64, MethodError>,
+) -> Result<[usize; 2], MethodError> {
+    let mut count = usize::try_from(most / 2).unwrap_or(usize::MAX).min(extent[0] * extent[1]);
+    while count > 0 {
+        let found = triangles(cells(count, extent))?;
+        if found <= most {
+            return Ok(cells(count, extent));
+        }
+        // By what is too much, and by one at least.
+        count = (count - 1).min((count as u128 * u128::from(most) / u128::from(found)) as usize);
+    }
+    Err(MethodError::Unfit(format!("no grid of {most} triangles covers a map; 2 are the fewest")))
+}
+
 impl Method for Remesher {
     fn name(&self) -> &'static str {
         "remesher"
@@ -92,32 +117,26 @@ impl Method for Remesher {
     fn goals(&self, map: &HeightMap, count: usize) -> Vec<Goal> {
         super::Uniform.goals(map, count)
     }
-    fn tessellate(
+    fn tessellate_within(
         &self,
         map: &HeightMap,
+        borders: Borders,
         goal: Goal,
         engine: Engine,
         progress: &dyn Progress,
     ) -> Result<Tessellation, MethodError> {
         let begun = Instant::now();
-        let step = match goal {
-            Goal::Triangles(most) => {
-                let triangles = |step: usize| {
-                    let cells = |side: usize| (side.max(2) - 1).div_ceil(step) as u64;
-                    2 * cells(map.width) * cells(map.height)
-                };
-                let longest = map.width.max(map.height);
-                (1..longest).find(|&step| triangles(step) <= most).ok_or_else(|| {
-                    MethodError::Unfit(format!("no grid of {most} triangles covers a map; 2 are the fewest"))
-                })?
-            }
+        let extent = extent(map, borders)?;
+        let mesh_of = |cells| Ok(Laid::new(map, borders, cells)?.mesh(remesh::Engine::Golden, &())?.0);
+        let cells = match goal {
+            Goal::Triangles(most) => fewer(extent, most, |cells| Ok(mesh_of(cells)?.triangles.len() as u64))?,
             Goal::Bound(bound) => {
                 let bound = f64::from(bound.over()) / f64::from(bound.under());
-                let mesh_of = |step| Ok(Laid::new(map, step)?.mesh(remesh::Engine::Golden, &())?.0);
-                coarsest(map, bound, mesh_of)?
+                let cells = |step: usize| extent.map(|samples| samples.div_ceil(step));
+                cells(coarsest(&map.unrolled(borders.wrap), bound, |step| mesh_of(cells(step)))?)
             }
         };
-        let laid = Laid::new(map, step)?;
+        let laid = Laid::new(map, borders, cells)?;
         let preparation_seconds = begun.elapsed().as_secs_f64();
         let begun = Instant::now();
         let (mut mesh, _) = laid.mesh(remesh::Engine::Golden, progress)?;

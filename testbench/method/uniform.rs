@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The regular grid, which knows nothing of the map: the baseline.
 
-use super::{Engine, Goal, Method, MethodError, Tessellation};
+use super::{Borders, Engine, Goal, Method, MethodError, Tessellation};
 use relief_models::map::HeightMap;
 use relief_models::measure::heights;
 use relief_models::mesh::{Progress, TriangleMesh};
@@ -13,7 +13,7 @@ use std::time::Instant;
 pub struct Uniform;
 
 /// The coarsest step, in powers of two down from the longer side, whose grid keeps a bound: found by measuring, so the
-/// grid keeps it, and promises nothing.
+/// grid keeps it, and promises nothing. `map` is unrolled.
 pub(super) fn coarsest(
     map: &HeightMap,
     bound: f64,
@@ -22,9 +22,13 @@ pub(super) fn coarsest(
     let longest = map.width.max(map.height).max(2) - 1;
     let mut step = longest.next_power_of_two();
     loop {
-        let mesh = mesh_of(step)?;
-        if step == 1 || heights(&mesh, map, &())?.max <= bound {
+        let error = heights(&mesh_of(step)?, map, &())?.max;
+        if error <= bound {
             return Ok(step);
+        }
+        if step == 1 {
+            let what = format!("with a vertex a sample the error is {error:.4}");
+            return Err(MethodError::Unfit(format!("{what}; a bound from there on is expected")));
         }
         step /= 2;
     }
@@ -44,9 +48,10 @@ impl Method for Uniform {
         let most = 2 * (map.width.max(2) - 1) as u64 * (map.height.max(2) - 1) as u64;
         (0..count as u32).rev().map(|halvings| Goal::Triangles((most >> halvings).max(2))).collect()
     }
-    fn tessellate(
+    fn tessellate_within(
         &self,
         map: &HeightMap,
+        borders: Borders,
         goal: Goal,
         engine: Engine,
         _: &dyn Progress,
@@ -54,6 +59,7 @@ impl Method for Uniform {
         if engine != Engine::Golden {
             return Err(MethodError::Unfit("the uniform grid has no hardware; its engine is golden".into()));
         }
+        let map = &map.unrolled(borders.wrap);
         let begun = Instant::now();
         let mesh = match goal {
             Goal::Triangles(most) => with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?,

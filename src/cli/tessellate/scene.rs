@@ -5,13 +5,14 @@ use std::io::stderr;
 
 use glam::{DVec2, DVec3};
 use relief_models::bake::Tolerance;
-use relief_models::body::{BaseMesh, NoPoint, Surface};
-use relief_models::map::Wrap;
+use relief_models::body::{NoPoint, Surface};
+use relief_models::map::{HeightMap, Wrap};
 use relief_models::measure::{Amount, Sampling, Side, surface};
 use relief_models::mesh::TriangleMesh;
 use relief_models::scene::{self, Object};
 use relief_models::uniform;
-use relief_testbench::method::{Goal, Verdict};
+use relief_testbench::method::{Borders, Goal, Verdict};
+use rustc_hash::FxHashMap;
 
 use super::{Arguments, Made, Worked, line, name_of, table};
 use crate::cli::{Meter, write_all};
@@ -34,10 +35,6 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
     let mut made = Made { mesh: TriangleMesh::default(), text: String::new(), broken: false };
     for (object, number) in scene.objects.iter().zip(1..) {
         let refuse = |message: String| format!("{name}: object {number} {message}");
-        if object.wrap.contains(&Wrap::Repeat) {
-            let what = "repeats its map; maps that clamp are expected (`relief run` draws repeating ones)";
-            return Err(refuse(what.into()).into());
-        }
         let [low, high] = object.displacement;
         let unit = (high - low) / 65535.0;
         let goal = match (bound, arguments.triangles) {
@@ -48,15 +45,17 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
             }
             (None, None) => return Err("a goal is expected: --bound E, in world units, or --triangles N".into()),
         };
-        let tessellation =
-            arguments.tessellate(&object.map, goal, meter).map_err(|error| match error
-                .downcast::<relief_testbench::method::MethodError>(
-            ) {
+        let borders = Borders { wrap: object.wrap, poles: object.poles };
+        let map = if object.poles { object.map.with_poles() } else { object.map.clone() };
+        let tessellation = arguments.tessellate(&map, borders, goal, meter).map_err(|error| {
+            match error.downcast::<relief_testbench::method::MethodError>() {
                 Ok(error) if !error.is_mismatch() => refuse(format!("cannot be tessellated: {error}")).into(),
                 Ok(error) => error as Box<dyn std::error::Error>,
                 Err(error) => error,
-            })?;
-        let measured = tessellation.measure(&object.map, meter)?;
+            }
+        })?;
+        let map = map.unrolled(object.wrap);
+        let measured = tessellation.measure(&map, meter)?;
         let laid = lay(object, &tessellation.mesh).map_err(refuse)?;
         made.text += &line(
             "object",
@@ -64,7 +63,7 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
         );
         made.text += &line("method", &arguments.method);
         made.text += &table(&tessellation, &measured, unit);
-        made.text += &distance(object, &laid, meter).map_err(refuse)?;
+        made.text += &distance(object, &map, &laid, meter).map_err(refuse)?;
         made.broken |= measured.verdict == Verdict::Broken;
         let first = made.mesh.positions.len() as u32;
         made.mesh.positions.extend(laid.positions);
@@ -87,43 +86,62 @@ fn in_map_units(bound: f64, unit: f64) -> Tolerance {
     Tolerance::new(units as u32, 10_000).unwrap_or_else(|| unreachable!("it is from 0 to 65535"))
 }
 
-/// A mesh in sample coordinates over the base mesh of an object, in world units; counterclockwise from outside.
+/// A mesh in sample coordinates over the base mesh of an object, in world units; counterclockwise from outside. What meets
+/// on the body is one vertex, and triangles that lose their area by it are left out: a closed body stays closed.
 fn lay(object: &Object, mesh: &TriangleMesh) -> Result<TriangleMesh, String> {
-    let base: &BaseMesh = &object.mesh;
-    let surface = Surface::new(base);
-    let last = DVec2::new((object.map.width - 1) as f64, (object.map.height - 1) as f64);
-    let [low, high] = object.displacement;
+    let surface = Surface::new(&object.mesh);
+    let size = [object.map.width, object.map.height];
+    let repeats = object.wrap.map(|wrap| wrap == Wrap::Repeat);
+    let extent = [0, 1].map(|axis| (size[axis] - usize::from(!repeats[axis])) as f64);
     let point = |at: DVec2| {
-        let uv = at / last;
+        let uv = at / DVec2::from_array(extent);
+        let place = format!("at u = {}, v = {}", uv.x, uv.y);
         surface.at(uv).map_err(|error| match error {
-            NoPoint::Uncovered => {
-                format!("has no base triangle at u = {}, v = {}; uv that cover all of the map are expected", uv.x, uv.y)
-            }
-            NoPoint::Ambiguous => format!(
-                "has several base triangles at u = {}, v = {}; uv that use the map once are expected",
-                uv.x, uv.y
-            ),
+            NoPoint::Uncovered => format!("has no base triangle {place}; uv that cover all of the map are expected"),
+            NoPoint::Ambiguous => format!("has several base triangles {place}; uv that use the map once are expected"),
         })
     };
-    let place = |[x, y, z]: &[f64; 3]| {
-        let at = point(DVec2::new(*x, *y))?;
-        Ok((at.position + (low + (high - low) * z / 65535.0) * at.normal).to_array())
+    // The place of a vertex that stands for all of its copies.
+    let canonical = |[x, y, z]: [f64; 3]| {
+        let [mut u, v] =
+            [0, 1].map(|axis| if repeats[axis] && [x, y][axis] == extent[axis] { 0.0 } else { [x, y][axis] });
+        if object.poles && (v == 0.0 || v == extent[1]) {
+            u = 0.0;
+        }
+        [u, v, z]
     };
-    let positions = mesh.positions.iter().map(place).collect::<Result<Vec<[f64; 3]>, String>>()?;
-    let turn = |corners: &[u32; 3]| {
-        let [a, b, c] = corners.map(|corner| DVec3::from_array(mesh.positions[corner as usize]).truncate());
-        let downwards = (b - a).perp_dot(c - a) > 0.0;
-        let [first, second, third] = *corners;
+    let [low, high] = object.displacement;
+    let (mut positions, mut numbers) = (Vec::new(), FxHashMap::default());
+    let mut number = |[x, y, z]: [f64; 3]| -> Result<u32, String> {
+        if let Some(number) = numbers.get(&[x, y].map(f64::to_bits)) {
+            return Ok(*number);
+        }
+        let at = point(DVec2::new(x, y))?;
+        positions.push((at.position + (low + (high - low) * z / 65535.0) * at.normal).to_array());
+        let number = positions.len() as u32 - 1;
+        numbers.insert([x, y].map(f64::to_bits), number);
+        Ok(number)
+    };
+    let mut triangles = Vec::with_capacity(mesh.triangles.len());
+    for corners in &mesh.triangles {
+        let places = corners.map(|corner| mesh.positions[corner as usize]);
+        let [a, b, c] = places.map(|place| DVec3::from_array(place).truncate());
+        let [first, second, third] = places.map(|place| number(canonical(place)));
+        let [first, second, third] = [first?, second?, third?];
+        if first == second || second == third || third == first {
+            continue;
+        }
         // Columns and rows count to the right and down.
-        Ok(if point((a + b + c) / 3.0)?.upright == downwards { [second, first, third] } else { *corners })
-    };
-    let triangles = mesh.triangles.iter().map(turn).collect::<Result<Vec<[u32; 3]>, String>>()?;
+        let downwards = (b - a).perp_dot(c - a) > 0.0;
+        let turned = point((a + b + c) / 3.0)?.upright == downwards;
+        triangles.push(if turned { [second, first, third] } else { [first, second, third] });
+    }
     Ok(TriangleMesh { positions, triangles })
 }
 
 /// How far the mesh is from that of all samples, both ways.
-fn distance(object: &Object, laid: &TriangleMesh, meter: &Meter) -> Result<String, String> {
-    let all = uniform::with_step(&object.map, 1).map_err(|error| format!("has no grid: {error}"))?;
+fn distance(object: &Object, map: &HeightMap, laid: &TriangleMesh, meter: &Meter) -> Result<String, String> {
+    let all = uniform::with_step(map, 1).map_err(|error| format!("has no grid: {error}"))?;
     let all = lay(object, &all)?;
     let sampling = Sampling { amount: Amount::Samples(SAMPLES), seed: 1 };
     let found = surface(Side::Mesh(laid), Side::Mesh(&all), sampling, meter).map_err(|error| error.to_string())?;
