@@ -2,11 +2,14 @@
 //! Preparation of maps: every bound holds, on maps made to break it, and what is written comes back or is refused.
 
 use proptest::prelude::*;
-use relief_models::bake::{self, Baked, Ground, Manifest, Tolerance, fitted, measure, normals, saturated, unfitted};
+use relief_models::bake::{
+    self, Baked, Ground, Manifest, Tolerance, fitted, measure, normals, saturated, unfitted, unfitted_with_seams,
+};
 use relief_models::bisector::{Bound, Errors, Lattice, Node, SplitMap, golden};
 use relief_models::map::{HeightMap, Procedural, Wrap, levels};
 use relief_models::mip_build::{self, Centring, Extremum};
 use relief_models::sat_build;
+use std::collections::BTreeSet;
 use std::path::Path;
 
 fn random(state: &mut u64) -> u64 {
@@ -198,6 +201,34 @@ proptest! {
         let measured = measure(&ground, &split, &heights).maximum;
         let [a, b] = [walked, measured].map(|excess| (i128::from(excess.over), i128::from(excess.under)));
         prop_assert_eq!(a.0 * b.1, b.0 * a.1);
+    }
+
+    #[test]
+    fn bake_seams_have_equal_rims(map in maps(), seams: [bool; 2], bound in tolerances()) {
+        let map = map.unrolled(seams.map(|seam| if seam { Wrap::Repeat } else { Wrap::Clamp }));
+        let ground = ground(&map, false);
+        let split = unfitted_with_seams(&ground, bound, seams);
+        let measured = measure(&ground, &split, &plain(&map));
+        prop_assert!(measured.maximum.is_within(bound) && measured.missing == 0);
+        // Places of vertices along each of the four rims.
+        let last = [map.width as u32 - 1, map.height as u32 - 1];
+        let mut rims = [[BTreeSet::new(), BTreeSet::new()], [BTreeSet::new(), BTreeSet::new()]];
+        golden(&ground.lattice, &split, &mut |triangle| {
+            for at in triangle.corners {
+                for axis in 0..2 {
+                    for (side, rim) in [0, last[axis]].into_iter().enumerate() {
+                        if at[axis] == rim {
+                            rims[axis][side].insert(at[1 - axis]);
+                        }
+                    }
+                }
+            }
+        });
+        for axis in 0..2 {
+            prop_assert!(!seams[axis] || rims[axis][0] == rims[axis][1], "{rims:?}");
+        }
+        // No more than the seams ask for.
+        prop_assert!(seams[0] || seams[1] || split == unfitted(&ground, bound));
     }
 
     #[test]

@@ -7,6 +7,8 @@ mod obj_files;
 mod shapes;
 #[path = "body/spherical.rs"]
 mod spherical;
+#[path = "body/surface.rs"]
+mod surface;
 
 use std::collections::HashMap;
 

@@ -220,3 +220,14 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn map_unrolled_ends_as_it_begins() {
+    let map = HeightMap { width: 3, height: 2, samples: vec![1, 2, 3, 4, 5, 6] };
+    let rows =
+        |wrap| map.unrolled(wrap).samples.chunks(map.unrolled(wrap).width).map(<[u16]>::to_vec).collect::<Vec<_>>();
+    assert_eq!(map.unrolled([Wrap::Clamp; 2]), map);
+    assert_eq!(rows([Wrap::Repeat, Wrap::Clamp]), [[1, 2, 3, 1], [4, 5, 6, 4]]);
+    assert_eq!(rows([Wrap::Repeat; 2]), [[1, 2, 3, 1], [4, 5, 6, 4], [1, 2, 3, 1]]);
+    assert_eq!(map.with_poles().samples, [3, 3, 3, 6, 6, 6]);
+}
