@@ -23,6 +23,7 @@ pub mod run;
 mod select;
 pub mod sim;
 pub mod stability;
+pub mod synth;
 pub mod tessellate;
 
 /// How a subcommand ended that could do its work.
@@ -94,6 +95,11 @@ impl Meter {
             .chain([("all", self.started.elapsed())])
             .map(|(name, time)| format!("{:8.3} s {name}\n", time.as_secs_f64()))
             .collect()
+    }
+
+    /// Says something in the middle of the work: the bar goes for it and comes again below.
+    pub fn aside<T>(&self, say: impl FnOnce() -> T) -> T {
+        self.bar.suspend(say)
     }
 
     fn show_if_late(&self, phases: &mut Phases) {

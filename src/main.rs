@@ -28,6 +28,7 @@ enum Command {
     CheckMesh(cli::check_mesh::Arguments),
     Measure(cli::measure::Arguments),
     Emit(cli::emit::Arguments),
+    Synth(cli::synth::Arguments),
     Sim(cli::sim::Arguments),
     Remesh(cli::remesh::Arguments),
 }
@@ -48,6 +49,7 @@ fn main() -> ExitCode {
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),
         Command::Measure(arguments) => cli::measure::run(&arguments),
         Command::Emit(arguments) => cli::emit::run(&arguments),
+        Command::Synth(arguments) => cli::synth::run(&arguments),
         Command::Sim(arguments) => cli::sim::run(&arguments),
         Command::Remesh(arguments) => cli::remesh::run(&arguments),
     };

@@ -9,6 +9,7 @@
 //! | [`icarus`]    | an interpreted simulator that knows unknown bits: batches                       |
 //! | [`lint`]      | what Verilator and Icarus say of the sources                                    |
 //! | [`synthesis`] | the cells that Yosys maps the design to                                         |
+//! | [`program`]   | runs a program for a bounded time                                               |
 //! | [`tools`]     | which of the programs there are, and what to install                            |
 //!
 //! # Sampling
@@ -24,7 +25,7 @@ pub mod cycles;
 pub mod design;
 pub mod icarus;
 pub mod lint;
-mod program;
+pub mod program;
 pub mod synthesis;
 pub mod tools;
 pub mod verilator;
@@ -33,7 +34,7 @@ pub use cycles::{Cycles, Difference, Response, first_difference};
 pub use design::{Design, Direction, Port, Slot};
 pub use icarus::{Icarus, IcarusModel};
 pub use lint::{LintMessage, Severity, Waiver, iverilog_accepts, verilator_lint};
-pub use synthesis::{CellReport, yosys_synth_ecp5};
+pub use synthesis::{CellReport, count_cells, yosys_synth_ecp5};
 pub use verilator::{Dump, PowerUp, Session, Verilator, VerilatorModel};
 
 use std::{io, path::PathBuf, time::Duration};

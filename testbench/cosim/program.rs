@@ -16,10 +16,13 @@ use std::{
 const QUOTED_LINES: usize = 12;
 
 /// What a program that came to its end said.
-pub(crate) struct Finished {
-    pub(crate) status: ExitStatus,
-    pub(crate) stdout: String,
-    pub(crate) stderr: String,
+pub struct Finished {
+    /// How it ended.
+    pub status: ExitStatus,
+    /// What it wrote to stdout.
+    pub stdout: String,
+    /// What it wrote to stderr.
+    pub stderr: String,
 }
 
 impl Finished {
@@ -40,7 +43,10 @@ impl Finished {
 
 /// Runs to the end, or for `limit`. The program gets a process group of its own, so that the compilers which it may
 /// have started are stopped with it.
-pub(crate) fn run(command: &mut Command, what: &str, limit: Duration) -> Result<Finished, CosimError> {
+///
+/// # Errors
+/// It cannot be started, or is not done in time. What it says itself is no error.
+pub fn run(command: &mut Command, what: &str, limit: Duration) -> Result<Finished, CosimError> {
     // Files, unlike pipes, never fill up while nobody reads.
     let file = || tempfile::tempfile().map_err(io_error("making a temporary file"));
     let clone = |file: &File| file.try_clone().map_err(io_error("sharing a temporary file"));

@@ -91,16 +91,7 @@ pub fn yosys_synth_ecp5(design: &Design) -> Result<CellReport, CosimError> {
         return Err(CosimError::Failed { what, status, excerpt });
     }
     let netlist = fs::read(&json).map_err(io_error("reading the netlist"))?;
-    let mut netlist: Netlist = serde_json::from_slice(&netlist)
-        .map_err(|cause| CosimError::Answer { what: what.clone(), reason: cause.to_string() })?;
-    let top = netlist.modules.remove(&design.top).ok_or_else(|| {
-        let reason = format!("its netlist has no module `{}`", design.top);
-        CosimError::Answer { what, reason }
-    })?;
-    let mut cells = BTreeMap::new();
-    for cell in top.cells.into_values() {
-        *cells.entry(cell.kind).or_insert(0) += 1;
-    }
+    let cells = count_cells(&netlist, &design.top).map_err(|reason| CosimError::Answer { what, reason })?;
     let count = |kind: &str| cells.get(kind).copied().unwrap_or(0);
     Ok(CellReport {
         luts: count("LUT4"),
@@ -112,6 +103,20 @@ pub fn yosys_synth_ecp5(design: &Design) -> Result<CellReport, CosimError> {
         latches: finished.stdout.lines().filter_map(latch).collect(),
         cells,
     })
+}
+
+/// Every kind of cell of the module `top` in a netlist that Yosys wrote as JSON, with its count.
+///
+/// # Errors
+/// Half a sentence: it is no such netlist.
+pub fn count_cells(netlist: &[u8], top: &str) -> Result<BTreeMap<String, usize>, String> {
+    let mut netlist: Netlist = serde_json::from_slice(netlist).map_err(|cause| cause.to_string())?;
+    let top = netlist.modules.remove(top).ok_or_else(|| format!("its netlist has no module `{top}`"))?;
+    let mut cells = BTreeMap::new();
+    for cell in top.cells.into_values() {
+        *cells.entry(cell.kind).or_insert(0) += 1;
+    }
+    Ok(cells)
 }
 
 /// "Latch inferred for signal `\top.\name' from process ...": the cell itself is gone once it is mapped.
