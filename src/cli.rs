@@ -18,6 +18,7 @@ pub mod emit;
 mod engine;
 pub mod measure;
 mod output;
+pub mod prove;
 pub mod remesh;
 pub mod run;
 mod select;

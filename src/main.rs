@@ -29,6 +29,7 @@ enum Command {
     Measure(cli::measure::Arguments),
     Emit(cli::emit::Arguments),
     Synth(cli::synth::Arguments),
+    Prove(cli::prove::Arguments),
     Sim(cli::sim::Arguments),
     Remesh(cli::remesh::Arguments),
 }
@@ -50,6 +51,7 @@ fn main() -> ExitCode {
         Command::Measure(arguments) => cli::measure::run(&arguments),
         Command::Emit(arguments) => cli::emit::run(&arguments),
         Command::Synth(arguments) => cli::synth::run(&arguments),
+        Command::Prove(arguments) => cli::prove::run(&arguments),
         Command::Sim(arguments) => cli::sim::run(&arguments),
         Command::Remesh(arguments) => cli::remesh::run(&arguments),
     };
