@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod chart;
 mod cli;
 
 /// Synthesizable displacement-mapping hardware: models, checks and files around it.
@@ -25,6 +26,7 @@ enum Command {
     Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
     Measure(cli::measure::Arguments),
+    Chart(cli::chart::Arguments),
     Emit(cli::emit::Arguments),
     Sim(cli::sim::Arguments),
     Remesh(cli::remesh::Arguments),
@@ -43,6 +45,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),
         Command::Measure(arguments) => cli::measure::run(&arguments),
+        Command::Chart(arguments) => cli::chart::run(&arguments),
         Command::Emit(arguments) => cli::emit::run(&arguments),
         Command::Sim(arguments) => cli::sim::run(&arguments),
         Command::Remesh(arguments) => cli::remesh::run(&arguments),
