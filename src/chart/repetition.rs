@@ -48,15 +48,16 @@ fn differences([length, lines]: [usize; 2], sample: impl Fn(usize, usize) -> u16
 
 fn greatest_fall(differences: &[f64]) -> Repetition {
     let most = differences.iter().copied().fold(0.0, f64::max);
-    let (mut highest, mut fall, mut period) = (0.0, 0.0, 0);
-    for (shift, &difference) in differences.iter().enumerate() {
-        highest = f64::max(highest, difference);
-        // The first period of several that are equal but for rounding.
-        if highest - difference > fall + 1e-3 * most {
-            (fall, period) = (highest - difference, shift);
-        }
-    }
-    Repetition { strength: if most > 0.0 { fall / most } else { 0.0 }, period }
+    let highest = differences.iter().scan(0.0, |highest, &difference| {
+        *highest = f64::max(*highest, difference);
+        Some(*highest)
+    });
+    let falls: Vec<f64> = highest.zip(differences).map(|(highest, difference)| highest - difference).collect();
+    let fall = falls.iter().copied().fold(0.0, f64::max);
+    // Every multiple of a period falls as far, or a little farther: the first valley that is nearly as deep.
+    let begin = falls.iter().position(|other| *other >= 0.9 * fall).unwrap_or_default();
+    let downhill = differences[begin..].windows(2).take_while(|pair| pair[1] < pair[0]).count();
+    Repetition { strength: if most > 0.0 { fall / most } else { 0.0 }, period: begin + downhill }
 }
 
 #[cfg(test)]
@@ -65,18 +66,35 @@ mod tests {
     use relief_models::map::{HeightMap, Procedural, read};
     use std::path::Path;
 
-    /// Every formula, and the land of the repository, on its side of the threshold and away from it.
+    /// Every formula, and the land of the repository, on its side of the threshold and well away from it.
     #[test]
     fn repetition_tells_patterns_from_land() {
+        use Procedural::{Checkerboard, Cosine, Dents, Waves};
         for side in [65, 257, 300] {
             for kind in Procedural::ALL {
                 let map = HeightMap::procedural(kind, side, side);
-                let strength = repetition(&map).map(|axis| axis.strength);
-                println!("{side} {:14} {:.3} {:.3}", kind.name(), strength[0], strength[1]);
+                let [x, y] = repetition(&map).map(|axis| axis.strength);
+                let (along_x, along_y) =
+                    (matches!(kind, Checkerboard | Cosine | Dents | Waves), matches!(kind, Checkerboard | Dents));
+                for (strength, repeats) in [(x, along_x), (y, along_y)] {
+                    let expected = if repeats { THRESHOLD + 0.2..=1.0 } else { 0.0..=THRESHOLD - 0.2 };
+                    assert!(expected.contains(&strength), "{kind:?} {side}: {x} {y}");
+                }
             }
         }
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/maps/jacksboro.png");
         let (map, _) = read(&path, &|_| Ok(())).unwrap();
-        println!("{:?} {THRESHOLD}", repetition(&map));
+        assert!(repetition(&map).iter().all(|axis| axis.strength < 0.1), "{:?}", repetition(&map));
+    }
+
+    #[test]
+    fn repetition_finds_the_first_period() {
+        let of = |kind, width, height| repetition(&HeightMap::procedural(kind, width, height));
+        assert_eq!(of(Procedural::Dents, 257, 129).map(|axis| axis.period), [32, 16]);
+        assert_eq!(of(Procedural::Waves, 161, 9)[0].period, 20);
+        // Two squares; and a plane, and maps with next to no shifts.
+        assert_eq!(of(Procedural::Checkerboard, 64, 64).map(|axis| axis.period), [16, 16]);
+        let plane = HeightMap { width: 2, height: 3, samples: vec![7; 6] };
+        assert!(repetition(&plane).iter().all(|axis| axis.strength == 0.0));
     }
 }

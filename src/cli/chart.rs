@@ -148,7 +148,7 @@ fn table(chapters: &[Chapter], out: &Path) -> std::result::Result<String, std::f
                 "  {name:22} {:18} {:>9} triangles {errors} {:9} {cycles}",
                 point.goal,
                 point.heights.triangles,
-                point.verdict.name()
+                point.standing()
             );
             writeln!(text, "{}", line.trim_end())?;
         }
