@@ -175,18 +175,23 @@ impl Figure {
         }
     }
 
+    /// Cost of a point; none where it has no such cost.
+    pub fn cost(self, point: &Point) -> Option<f64> {
+        let hardware = |what: fn(&Hardware) -> u64| point.hardware.as_ref().map(|hardware| what(hardware) as f64);
+        match self {
+            Figure::MaxTriangles | Figure::RmsTriangles => Some(point.heights.triangles as f64),
+            Figure::MaxCycles => hardware(|hardware| hardware.cycles),
+            Figure::MaxReads => hardware(|hardware| hardware.reads),
+            Figure::MaxMemory => hardware(|hardware| hardware.memory_bits),
+            Figure::MaxSeconds => Some(point.preparation_seconds + point.golden_seconds),
+        }
+    }
+
     /// Cost and error of a point, in map units; none where it has no such cost, or does not cover the map.
     pub fn place(self, point: &Point) -> Option<[f64; 2]> {
-        let hardware = |what: fn(&Hardware) -> u64| point.hardware.as_ref().map(|hardware| what(hardware) as f64);
-        let cost = match self {
-            Figure::MaxTriangles | Figure::RmsTriangles => point.heights.triangles as f64,
-            Figure::MaxCycles => hardware(|hardware| hardware.cycles)?,
-            Figure::MaxReads => hardware(|hardware| hardware.reads)?,
-            Figure::MaxMemory => hardware(|hardware| hardware.memory_bits)?,
-            Figure::MaxSeconds => point.preparation_seconds + point.golden_seconds,
-        };
         let error = if self == Figure::RmsTriangles { point.rms() } else { point.heights.max };
-        (point.heights.uncovered == 0 && error.is_finite()).then_some([cost, error])
+        let covers = point.heights.uncovered == 0 && error.is_finite();
+        self.cost(point).filter(|_| covers).map(|cost| [cost, error])
     }
 }
 

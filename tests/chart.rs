@@ -282,6 +282,10 @@ fn chart_survives_peers_that_misbehave() -> Outcome {
     fs::write(&python, format!("#!/bin/sh\n{ask}\n{one}; {one}; {one}\n"))?;
     let (code, stdout, stderr) = chart(folder.path(), &["map.png", "--out", "out", "--points", "1"]);
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    write_formula(&folder.path().join("oblong.png"), Procedural::Peaks, 17, 12)?;
+    let (code, notes, _) = chart(folder.path(), &["oblong.png", "--out", "other", "--points", "1"]);
+    assert_eq!(code, Some(0), "{notes}");
+    assert!(notes.contains("note: pymartini: it needs squares of 2^n + 1 samples, and the map has 17 x 12"), "{notes}");
     let rows = rows(&fs::read_to_string(folder.path().join("out/points.csv"))?);
     let peers: Vec<_> = rows.iter().filter(|row| row["kind"] == "peer").collect();
     assert_eq!(peers.len(), 6, "{stdout}");

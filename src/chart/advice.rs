@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What follows from the points of a map, in sentences. All of it is computed: another map, other sentences.
 
+use relief_testbench::method::Verdict;
+
 use super::repetition::{THRESHOLD, repetition};
 use super::{Chapter, Kind, Point, Subject, collect};
 
@@ -32,7 +34,7 @@ impl<'a> Choice<'a> {
 
     /// The mesh to take: of ours, in hardware if any ran, with a promise if any gives one, that with the fewest triangles.
     pub fn taken(&self) -> Option<&'a Point> {
-        let ours = || self.keeping().filter(|point| point.kind == Kind::Ours && point.verdict.name() != "BROKEN");
+        let ours = || self.keeping().filter(|point| point.kind == Kind::Ours && point.verdict != Verdict::Broken);
         let key = |point: &&Point| (point.hardware.is_none(), point.claim.is_none(), point.heights.triangles);
         ours().min_by_key(key)
     }
@@ -77,18 +79,44 @@ pub fn kind(subject: &Subject) -> (&'static str, String) {
         return ("a plane", "All its samples are the same.".into());
     }
     match periods.is_empty() {
-        true => {
-            ("terrain, or a single shape", format!("It does not come back on itself when it is shifted ({measured})."))
-        }
-        false => ("a repeating pattern", format!("It comes back {} ({measured}).", periods.join(", and "))),
+        true => (
+            "terrain, or a single shape",
+            format!(
+                "It does not come back on itself when it is shifted ({measured}). Rough and smooth parts differ from place \
+                 to place, so a method that puts triangles where the error is can save many."
+            ),
+        ),
+        false => (
+            "a repeating pattern",
+            format!(
+                "It comes back {} ({measured}). What a method does to one repetition it does to all of them: a lattice that \
+                 fits the period serves all, and one that does not errs in all.",
+                periods.join(", and ")
+            ),
+        ),
     }
+}
+
+/// What to take, in a line.
+pub fn headline(chapter: &Chapter) -> String {
+    let (kind, _) = kind(&chapter.subject);
+    let choices = choices(chapter);
+    let taken = choices.iter().filter_map(|choice| {
+        let point = choice.taken()?;
+        let cycles = point.hardware.as_ref().map_or_else(String::new, |at| format!(", {} cycles", count(at.cycles)));
+        let triangles = count(point.heights.triangles as u64);
+        Some(format!("for errors up to {} % {} ({triangles} triangles{cycles})", choice.percent, point.method))
+    });
+    let taken: Vec<_> = taken.collect();
+    if taken.is_empty() { kind.into() } else { format!("{kind}. Take {}.", taken.join(", ")) }
 }
 
 /// What to take: sentences under headings.
 pub fn sentences(chapter: &Chapter) -> Vec<(String, Vec<String>)> {
     let choices = choices(chapter);
     let part = |choice: &Choice<'_>| {
-        let more = [cheaper(choice), against_grid(chapter, choice), peer(choice), smoother(chapter, choice)];
+        let more =
+            [quicker(choice), cheaper(choice), against_grid(chapter, choice), peer(choice), smoother(chapter, choice)];
         let sentences = [take(chapter, choice)].into_iter().chain(more.into_iter().flatten()).collect();
         (bound(&chapter.subject, choice), sentences)
     };
@@ -124,6 +152,27 @@ fn take(chapter: &Chapter, choice: &Choice<'_>) -> String {
         "Take {}: {triangles} triangles, {share} % of those of a mesh with all samples{cycles}. {promise}.",
         point.method
     )
+}
+
+/// A method that promises as much and is prepared ten times as fast.
+fn quicker(choice: &Choice<'_>) -> Option<String> {
+    let taken = choice.taken()?;
+    let promising = choice.keeping().filter(|point| point.kind == Kind::Ours && point.claim.is_some());
+    let quickest = promising.min_by(|a, b| a.preparation_seconds.total_cmp(&b.preparation_seconds))?;
+    (10.0 * quickest.preparation_seconds < taken.preparation_seconds).then(|| {
+        let times = figure(quickest.heights.triangles as f64 / taken.heights.triangles as f64);
+        let [slow, quick] = [taken, quickest].map(|point| seconds(point.preparation_seconds));
+        format!(
+            "Preparing it took {slow} here, once a map. Where maps change often take {}: {quick}, {times} times the \
+             triangles, and the same promise.",
+            quickest.method
+        )
+    })
+}
+
+/// A time, in a unit that suits it.
+pub fn seconds(seconds: f64) -> String {
+    if seconds < 1.0 { format!("{} ms", figure(1e3 * seconds)) } else { format!("{} s", figure(seconds)) }
 }
 
 /// Another method that takes fewer cycles.
@@ -184,7 +233,8 @@ fn smoother(chapter: &Chapter, choice: &Choice<'_>) -> Option<String> {
         format!("No mesh with so few triangles has a lower RMS error than its {least} % of the range.")
     } else {
         format!(
-            "Where the RMS error matters more than the greatest one: {} has {least} % with as many triangles, {} {own} %; its greatest error is {greatest} %.",
+            "Where the RMS error matters more than the greatest one: {} has {least} % of the range with no more triangles \
+             (greatest error {greatest} %), {} {own} %.",
             best.method, taken.method
         )
     })
@@ -229,7 +279,7 @@ fn aliases(chapter: &Chapter) -> Option<String> {
 fn broken(chapter: &Chapter) -> Vec<String> {
     let mut sentences = Vec::new();
     for (name, _) in chapter.methods() {
-        let of = || chapter.points.iter().filter(|point| point.method == name && point.verdict.name() == "BROKEN");
+        let of = || chapter.points.iter().filter(|point| point.method == name && point.verdict == Verdict::Broken);
         let times = |point: &Point| point.claim.filter(|claim| *claim > 0.0).map(|claim| point.heights.max / claim);
         let above: Vec<f64> = of().filter(|point| point.heights.is_whole()).filter_map(times).collect();
         if !above.is_empty() {
@@ -243,7 +293,11 @@ fn broken(chapter: &Chapter) -> Vec<String> {
             of().filter(|point| !point.heights.is_whole()).partition(|point| point.heights.uncovered > 0);
         for (meshes, what) in [(gaps, "gaps"), (folds, "folds, seen from above")] {
             if !meshes.is_empty() {
-                sentences.push(format!("{} meshes of {name} have {what}; they are no height fields.", meshes.len()));
+                let number = match meshes.len() {
+                    1 => "a mesh".into(),
+                    number => format!("{number} meshes"),
+                };
+                sentences.push(format!("{name} made {number} with {what}: no height field."));
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use relief_models::bake::Tolerance;
 use relief_models::mesh::Progress;
-use relief_testbench::method::{Engine, Goal, METHODS, Method, MethodError};
+use relief_testbench::method::{Engine, Goal, METHODS, Method, MethodError, Verdict};
 
 use super::{Chapter, Figure, Kind, Point, Subject};
 
@@ -19,8 +19,9 @@ pub fn collect(subject: Subject, count: usize, engine: Engine, progress: &dyn Pr
             let text = describe(goal);
             match point(*method, goal, &chapter.subject, engine, progress) {
                 Ok(point) => {
-                    if point.verdict.name() == "BROKEN" {
-                        chapter.failures.push(format!("{} at {text} does not keep its claim", method.name()));
+                    if point.verdict == Verdict::Broken {
+                        let error = format!("max {}, claim {:?}", point.heights.max, point.claim);
+                        chapter.failures.push(format!("{} at {text}: {} ({error})", method.name(), point.standing()));
                     }
                     chapter.points.push(point);
                 }

@@ -125,7 +125,8 @@ fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, chapter: &Chapter, figu
     } else {
         canvas.grid(cost(figure).1)?;
         canvas.front(chapter, figure, &place)?;
-        for (name, kind) in chapter.methods() {
+        // Peers lie below ours, and what comes first in the legend on top.
+        for (name, kind) in chapter.methods().into_iter().rev() {
             canvas.series(
                 chapter.points.iter().filter(|point| point.method == name).filter_map(place),
                 look(name, kind),
@@ -143,7 +144,8 @@ fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, chapter: &Chapter, figu
     if folded > 0 {
         notes.push(format!("meshes with folds: {folded}, on no front"));
     }
-    let gaps = chapter.points.iter().filter(|point| point.heights.uncovered > 0).count();
+    let gaps = |point: &&Point| figure.cost(point).is_some() && point.heights.uncovered > 0;
+    let gaps = chapter.points.iter().filter(gaps).count();
     if gaps > 0 {
         notes.push(format!("with gaps, left out: {gaps}"));
     }
@@ -152,9 +154,10 @@ fn draw<B: DrawingBackend>(area: &DrawingArea<B, Shift>, chapter: &Chapter, figu
 }
 
 impl<B: DrawingBackend> Canvas<'_, B> {
-    /// A text that becomes smaller rather than longer than 60 letters, or than 22 in the legend.
+    /// A text that becomes smaller rather than run out of the picture.
     fn text(&self, text: &str, at: (i32, i32), size: f64, (anchor, colour): (HPos, &RGBColor)) -> Drawn<B> {
-        let most = if at.0 > LEGEND { 22.0 } else { 60.0 };
+        let letters = if at.0 > LEGEND { 560.0 } else { 2100.0 };
+        let most = letters / size;
         let size = size * (most / text.chars().count().max(1) as f64).min(1.0);
         let style = ("sans-serif", size).into_font().color(colour).pos(Pos::new(anchor, VPos::Center));
         self.area.draw(&Text::new(text.to_owned(), at, style))
@@ -210,7 +213,7 @@ impl<B: DrawingBackend> Canvas<'_, B> {
     }
 
     fn ring(&self, at: (i32, i32)) -> Drawn<B> {
-        self.area.draw(&Circle::new(at, 19, GREY.stroke_width(3)))
+        self.area.draw(&Circle::new(at, 24, GREY.stroke_width(3)))
     }
 
     fn series(
@@ -227,22 +230,27 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         pixels.into_iter().try_for_each(|at| self.mark(at, colour, shape, kind))
     }
 
-    /// Full for ours, hollow for peers.
+    /// Full for ours, hollow and larger for peers: where both stand at one place, both are seen.
     fn mark(&self, at: (i32, i32), colour: RGBColor, (corners, turn): (u32, f64), kind: Kind) -> Drawn<B> {
-        let inside = if kind == Kind::Ours { colour } else { WHITE };
-        let full = ShapeStyle { color: inside.to_rgba(), filled: true, stroke_width: 0 };
+        let (radius, width) = if kind == Kind::Ours { (10, 4) } else { (14, 4) };
+        let full = ShapeStyle { color: colour.to_rgba(), filled: true, stroke_width: 0 };
         if corners == 0 {
-            self.area.draw(&Circle::new(at, 10, full))?;
-            return self.area.draw(&Circle::new(at, 10, colour.stroke_width(4)));
+            if kind == Kind::Ours {
+                self.area.draw(&Circle::new(at, radius, full))?;
+            }
+            return self.area.draw(&Circle::new(at, radius, colour.stroke_width(width)));
         }
+        // As large as a circle, by the eye.
+        let radius = f64::from(radius) * if corners == 3 { 1.4 } else { 1.3 };
         let corner = |number: u32| {
             let angle = TAU * (f64::from(number % corners) / f64::from(corners) + turn);
-            let radius = if corners == 3 { 14.0 } else { 13.0 };
             (at.0 + (radius * angle.sin()).round() as i32, at.1 - (radius * angle.cos()).round() as i32)
         };
         let around: Vec<_> = (0..=corners).map(corner).collect();
-        self.area.draw(&Polygon::new(around[..corners as usize].to_vec(), full))?;
-        self.line(around, colour, 4)
+        if kind == Kind::Ours {
+            self.area.draw(&Polygon::new(around[..corners as usize].to_vec(), full))?;
+        }
+        self.line(around, colour, width)
     }
 
     fn legend(&self, chapter: &Chapter, figure: Figure) -> Drawn<B> {
@@ -269,7 +277,8 @@ impl<B: DrawingBackend> Canvas<'_, B> {
         self.ring((LEGEND + 30, y))?;
         self.text("Pareto front: nothing", (LEGEND + 74, y), SMALL, (HPos::Left, &BLACK))?;
         self.text("is better in both", (LEGEND + 74, y + 32), SMALL, (HPos::Left, &BLACK))?;
-        if chapter.methods().iter().any(|(_, kind)| *kind == Kind::Peer) {
+        let is_peer = |point: &&Point| point.kind == Kind::Peer && figure.place(point).is_some();
+        if chapter.points.iter().any(|point| is_peer(&point)) {
             self.text("full: ours; hollow: peers", (LEGEND, y + 82), SMALL, (HPos::Left, &GREY))?;
         }
         Ok(())

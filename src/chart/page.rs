@@ -23,9 +23,9 @@ pub fn page(chapters: &[Chapter], absence: &[String]) -> Result<String, Box<dyn 
          meshes are behind it.",
     );
     let links = chapters.iter().map(|chapter| {
-        let (kind, _) = advice::kind(&chapter.subject);
         let subject = &chapter.subject;
-        format!("<li><a href=\"#{}\">{}</a>: {kind}</li>\n", subject.slug, escaped(&subject.name))
+        let line = escaped(&advice::headline(chapter));
+        format!("<li><a href=\"#{}\">{}</a>: {line}</li>\n", subject.slug, escaped(&subject.name))
     });
     body += &format!("<ul>\n{}</ul>\n", links.collect::<String>());
     for chapter in chapters {
@@ -167,13 +167,7 @@ fn percent(subject: &Subject, error: f64) -> String {
 }
 
 fn seconds(seconds: f64) -> String {
-    if seconds == 0.0 {
-        "–".into()
-    } else if seconds < 1.0 {
-        format!("{:.2} ms", 1e3 * seconds)
-    } else {
-        format!("{seconds:.2} s")
-    }
+    if seconds == 0.0 { "–".into() } else { advice::seconds(seconds) }
 }
 
 fn verdict(point: &Point) -> String {
