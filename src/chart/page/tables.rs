@@ -14,7 +14,11 @@ fn cell(text: &str, is_best: bool) -> String {
 }
 
 fn table(columns: &[&str], rows: &str) -> String {
-    let header: String = columns.iter().map(|column| format!("<th>{column}</th>")).collect();
+    let header = columns.iter().map(|column| {
+        let class = if ["goal", "claim", "on the front of"].contains(column) { " class=\"text\"" } else { "" };
+        format!("<th{class}>{column}</th>")
+    });
+    let header: String = header.collect();
     format!("<div class=\"scroll\">\n<table>\n<tr>{header}</tr>\n{rows}</table>\n</div>\n")
 }
 
