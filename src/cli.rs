@@ -12,6 +12,7 @@ use relief_models::mesh::Progress;
 
 pub mod bake;
 pub mod blocks;
+pub mod chart;
 pub mod check;
 pub mod check_mesh;
 pub mod emit;

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
+mod chart;
 mod cli;
 
 /// Synthesizable displacement-mapping hardware: models, checks and files around it.
@@ -27,6 +28,7 @@ enum Command {
     Check(cli::check::Arguments),
     CheckMesh(cli::check_mesh::Arguments),
     Measure(cli::measure::Arguments),
+    Chart(cli::chart::Arguments),
     Emit(cli::emit::Arguments),
     Synth(cli::synth::Arguments),
     Prove(cli::prove::Arguments),
@@ -49,6 +51,7 @@ fn main() -> ExitCode {
         Command::Check(arguments) => cli::check::run(&arguments),
         Command::CheckMesh(arguments) => cli::check_mesh::run(&arguments),
         Command::Measure(arguments) => cli::measure::run(&arguments),
+        Command::Chart(arguments) => cli::chart::run(&arguments),
         Command::Emit(arguments) => cli::emit::run(&arguments),
         Command::Synth(arguments) => cli::synth::run(&arguments),
         Command::Prove(arguments) => cli::prove::run(&arguments),
