@@ -37,8 +37,10 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    // What is half-written when somebody stops the program goes with it. Without the handler it would only stay.
+    // What is half-written when somebody stops the program goes with it, and so do the programs that it has started. Without
+    // the handler they would only stay.
     let _ = ctrlc::set_handler(|| {
+        relief_testbench::cosim::program::stop_all();
         relief_testbench::output::remove_unfinished();
         std::process::exit(130);
     });

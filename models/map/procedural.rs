@@ -123,7 +123,7 @@ fn fraction(index: usize, count: usize) -> f64 {
 
 /// An odd sample near a third of an axis, where no coarse grid has a vertex; the last one of a short axis.
 fn third(count: usize) -> usize {
-    (count / 3 | 1).min(count - 1)
+    ((count / 3) | 1).min(count - 1)
 }
 
 fn dents(u: f64, v: f64) -> f64 {

@@ -112,7 +112,7 @@ pub const CONTRACTS: [Contract; 10] = [
         exchange: Some(Exchange {
             asks: "in_kind >= 2",
             answers: "1'b1",
-            under_way: 4,
+            under_way: 5,
             silence: Some(9),
             cycles: 20,
             cut: true,

@@ -61,7 +61,7 @@ impl Solver {
             found.filter(|answer| answer.status.success()).map(|answer| answer.stdout.trim().to_owned())
         };
         let version = ask("z3").ok_or_else(|| {
-            let install = "python3 -m venv .tools/eda && .tools/eda/bin/pip install z3-solver==4.15.4.0";
+            let install = "python3 -m venv .tools/eda && .tools/eda/bin/pip install z3-solver==5.4.1.0";
             format!("the program `z3` is missing: install the Debian package z3, or run {install}")
         })?;
         solver.version = version;
@@ -140,7 +140,15 @@ impl<'a> Proof<'a> {
                 if self.solve(property, Some(INDUCTION), true, waveform)? == passed() {
                     return Ok(Verdict::Proved(format!("induction over {INDUCTION} cycles")));
                 }
-                Ok(Verdict::Bounded(format!("{INDUCTION} cycles; induction does not close")))
+                // Further from reset, then.
+                let cycles = (*reach).max(INDUCTION);
+                let found = self.solve(property, Some(cycles), false, waveform)?;
+                let why = "an induction begins in states that cannot be";
+                Ok(if found == passed() {
+                    Verdict::Bounded(format!("{cycles} cycles from reset; {why}"))
+                } else {
+                    found
+                })
             }
             Property::Free if self.follows.is_empty() => Ok(Verdict::Proved("no path in the netlist".into())),
             Property::Free => Ok(Verdict::Failed(format!("a path to {}", self.follows.join(", ")), None)),
@@ -234,10 +242,11 @@ fn passed() -> Verdict {
 /// One reading and flattening, and a file a property.
 fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String {
     let mut text = format!(
-        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\nproc\nflatten\nopt_expr\nopt_clean\nopt -keepdc\n",
+        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\nproc\nflatten\n",
         sources.join(" ")
     );
-    // All that the outputs follow within a cycle, and `out_ready` among it.
+    // All that the outputs follow within a cycle, and `out_ready` among it. Before anything is simplified: wires would lose
+    // their names.
     let all =
         outputs.iter().enumerate().map(|(at, output)| if at == 0 { output.clone() } else { format!("{output} %u") });
     text += &format!(

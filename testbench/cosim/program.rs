@@ -8,6 +8,7 @@ use std::{
     io::{Read, Seek, SeekFrom},
     os::unix::process::{CommandExt, ExitStatusExt},
     process::{Command, ExitStatus, Stdio},
+    sync::{Mutex, PoisonError},
     thread,
     time::{Duration, Instant},
 };
@@ -41,6 +42,16 @@ impl Finished {
     }
 }
 
+/// The process groups that run at present.
+static RUNNING: Mutex<Vec<Pid>> = Mutex::new(Vec::new());
+
+/// Stops all programs that run at present, because this one is stopped: nobody else would.
+pub fn stop_all() {
+    for group in RUNNING.lock().unwrap_or_else(PoisonError::into_inner).drain(..) {
+        let _ = kill_process_group(group, Signal::KILL);
+    }
+}
+
 /// Runs to the end, or for `limit`. The program gets a process group of its own, so that the compilers which it may
 /// have started are stopped with it.
 ///
@@ -53,6 +64,9 @@ pub fn run(command: &mut Command, what: &str, limit: Duration) -> Result<Finishe
     let (mut stdout, mut stderr) = (file()?, file()?);
     command.stdin(Stdio::null()).stdout(clone(&stdout)?).stderr(clone(&stderr)?).process_group(0);
     let mut child = command.spawn().map_err(io_error(format!("starting {what}")))?;
+    let group = Pid::from_child(&child);
+    let running = || RUNNING.lock().unwrap_or_else(PoisonError::into_inner);
+    running().push(group);
     let (start, mut pause) = (Instant::now(), Duration::from_millis(1));
     let status = loop {
         if let Some(status) = child.try_wait().map_err(io_error(format!("waiting for {what}")))? {
@@ -60,13 +74,14 @@ pub fn run(command: &mut Command, what: &str, limit: Duration) -> Result<Finishe
         }
         if start.elapsed() >= limit {
             // It may have ended by itself just now: then there is nothing to stop.
-            let _ = kill_process_group(Pid::from_child(&child), Signal::KILL);
+            let _ = kill_process_group(group, Signal::KILL);
             let _ = child.wait();
             break None;
         }
         thread::sleep(pause);
         pause = (pause * 2).min(Duration::from_millis(20));
     };
+    running().retain(|other| *other != group);
     let (stdout, stderr) = (content(&mut stdout), content(&mut stderr));
     match status {
         Some(status) => Ok(Finished { status, stdout, stderr }),

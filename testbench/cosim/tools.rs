@@ -31,13 +31,14 @@ pub struct Missing {
 }
 
 /// Program, Debian package, and the option that makes it say its version.
-const KNOWN: [(&str, &str, &str); 6] = [
+const KNOWN: [(&str, &str, &str); 7] = [
     ("verilator", "verilator", "--version"),
     ("g++", "g++", "--version"),
     ("make", "make", "--version"),
     ("iverilog", "iverilog", "-V"),
     ("vvp", "iverilog", "-V"),
     ("yosys", "yosys", "-V"),
+    ("z3", "z3", "--version"),
 ];
 
 /// Asking takes up to 50 ms, and every test asks.

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `relief prove` as a program: the promises of streams hold in the emitted Verilog, and each proof can fail.
+
+use relief::prove::Property;
+use relief::prove::contract::CONTRACTS;
+use relief_testbench::binding::BLOCKS;
+use relief_testbench::cosim::tools;
+use std::process::Command;
+
+fn prove(arguments: &[&str]) -> (Option<i32>, String, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let program = env!("CARGO_BIN_EXE_relief");
+    let output = Command::new(program).arg("prove").args(arguments).current_dir(folder.path()).output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (output.status.code(), text(output.stdout), text(output.stderr))
+}
+
+fn can_prove() -> bool {
+    tools::require_all(&["yosys", "z3"], "proofs").unwrap()
+}
+
+#[test]
+fn prove_streams_keep_their_promises() {
+    if !can_prove() {
+        return;
+    }
+    // The remesher takes Yosys minutes, and the formula of sat_average the solver one.
+    let blocks = [
+        "vertex_adder",
+        "strip_unit",
+        "mip_build",
+        "mip_fetch",
+        "sat_build",
+        "sat_fetch",
+        "sat_fetch_parallel",
+        "bisector",
+    ];
+    let (code, stdout, stderr) = prove(&blocks);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let verdict = |block: &str, property: Property| {
+        let line = stdout.lines().find(|line| {
+            let mut words = line.split_whitespace();
+            (words.next(), words.next()) == (Some(block), Some(property.name()))
+        });
+        line.unwrap_or_else(|| panic!("{block} {property:?}: {stdout}")).split_whitespace().nth(2).unwrap()
+    };
+    for block in blocks {
+        assert_eq!(verdict(block, Property::Free), "proved", "{block}");
+        assert_eq!(verdict(block, Property::Reached), "proved", "{block}");
+        // The induction closes for all but one.
+        assert_eq!(verdict(block, Property::Held), if block == "mip_build" { "bounded" } else { "proved" }, "{block}");
+        let exchange = CONTRACTS.iter().find(|contract| contract.block == block).unwrap().exchange;
+        assert_eq!(verdict(block, Property::Counted), if exchange.is_some() { "bounded" } else { "-" }, "{block}");
+        let answers = exchange.is_some_and(|exchange| exchange.silence.is_some());
+        assert_eq!(verdict(block, Property::Answered), if answers { "bounded" } else { "-" }, "{block}");
+    }
+    assert_eq!(verdict("vertex_adder", Property::Equal), "proved");
+}
+
+#[test]
+fn prove_notices_every_fault() {
+    if !can_prove() {
+        return;
+    }
+    for property in Property::ALL {
+        let (code, stdout, stderr) =
+            prove(&["vertex_adder", "--property", property.name(), "--fault", property.name()]);
+        assert_eq!(code, Some(1), "{property:?}: {stdout}{stderr}");
+        assert!(stdout.contains("FAILED") && stderr.contains("1 properties do not hold"), "{stdout}{stderr}");
+        // Without the fault it holds.
+        let (code, stdout, _) = prove(&["vertex_adder", "--property", property.name()]);
+        assert!(code == Some(0) && stdout.contains("vertex_adder       "), "{stdout}");
+    }
+    // A fault of one property leaves the proofs of others alone where it can.
+    let (code, stdout, _) = prove(&["vertex_adder", "--property", "held", "--fault", "equal"]);
+    assert_eq!(code, Some(0), "{stdout}");
+}
+
+#[test]
+fn prove_has_a_contract_for_every_block() {
+    let mut blocks: Vec<&str> = BLOCKS.iter().map(|block| block.name()).collect();
+    let mut contracts: Vec<&str> = CONTRACTS.iter().map(|contract| contract.block).collect();
+    blocks.sort_unstable();
+    contracts.sort_unstable();
+    assert_eq!(blocks, contracts);
+    let (code, stdout, stderr) = prove(&["vertex_adder", "--property", "fast"]);
+    assert_eq!((code, stdout.as_str()), (Some(2), ""));
+    assert!(
+        stderr.contains("there is no property `fast`; held, free, counted, answered, equal, reached are"),
+        "{stderr}"
+    );
+}
