@@ -91,7 +91,8 @@ impl Figures {
 
     /// A table for each part, or for the README's alone.
     pub fn tables(&self, every: bool) -> String {
-        let targets = TARGETS.iter().filter(|target| every || target.name == MAIN);
+        let measured = |target: &&Target| self.rows.iter().any(|row| row.target == target.name);
+        let targets = TARGETS.iter().filter(|target| every || target.name == MAIN).filter(measured);
         targets.map(|target| self.table(target, every)).collect::<Vec<_>>().join("\n")
     }
 
