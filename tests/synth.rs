@@ -247,7 +247,7 @@ fn synth_figures_are_merged_in_order() -> Outcome {
         seeds_mhz: vec![100.0],
         mbeats_per_s: Some(50.0),
         critical_path: None,
-        does_not_fit: None,
+        no_clock: None,
         tools: vec!["Yosys 0.23".into()],
     };
     let mut figures = Figures::default();
@@ -347,10 +347,11 @@ fn synth_prints_and_records_rows() -> Outcome {
     for document in ["README.md", "docs/synth.md"] {
         fs::write(folder.path().join(document), "a\n<!-- figures -->\n<!-- end of figures -->\nb\n")?;
     }
-    let command = ["synth", "mip_fetch", "vertex_adder", "--param", "small", "--target", "ice40-hx8k", "--figures"];
+    let command =
+        ["synth", "mip_fetch", "vertex_adder", "--param", "small", "--target", "ice40-hx8k", "--pnr", "--figures"];
     let read =
         || ["README.md", "docs/synth.md", FIGURES].map(|name| fs::read_to_string(folder.path().join(name)).unwrap());
-    // Where there is no nextpnr, --figures says so rather than record less.
+    // Where there is no nextpnr, it says so rather than record less.
     if programs::nextpnr("nextpnr-ice40").is_err() {
         assert_eq!(relief(folder.path(), &command).0, Some(2));
         return Ok(());
@@ -358,7 +359,7 @@ fn synth_prints_and_records_rows() -> Outcome {
     std::os::unix::fs::symlink(project().join(".tools"), folder.path().join(".tools"))?;
     let (code, stdout, stderr) = relief(folder.path(), &[&command[..], &["--seeds", "1"]].concat());
     assert_eq!(code, Some(0), "{stdout}{stderr}");
-    assert!(stdout.contains("does not fit") && stderr.contains("mip_fetch does not fit ice40-hx8k even at small"));
+    assert!(stdout.contains("does not fit") && stderr.contains("mip_fetch has no clock on ice40-hx8k even at small"));
     let once = read();
     assert!(once[1].contains("| vertex_adder | `small` |") && once[0].ends_with("b\n"), "{}", once[1]);
     let (code, ..) = relief(folder.path(), &[&["synth"], &command[2..], &["--seeds", "1"]].concat());
@@ -378,7 +379,7 @@ fn synth_places_and_routes_a_block() -> Outcome {
             continue;
         };
         let row = Bench::new(block("vertex_adder"), small())?.measure(target, &tools, 2)?;
-        assert_eq!(row.does_not_fit, None);
+        assert_eq!(row.no_clock, None);
         let (fmax, path) = (row.fmax_mhz.ok_or("no clock")?, row.critical_path.ok_or("no path")?);
         assert!(
             row.seeds_mhz.len() == 2 && row.seeds_mhz[0] == fmax && row.seeds_mhz[1] >= fmax,
