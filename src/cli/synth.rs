@@ -36,8 +36,8 @@ pub struct Arguments {
     /// Write JSON
     #[arg(long)]
     json: bool,
-    /// Put the rows into docs/figures.json and the tables of README.md and docs/synth.md. Without --target and --param
-    /// these are all targets, with place and route where there is one, at the sets default and small
+    /// Put the rows into docs/figures.json and the tables of README.md and docs/synth.md. Without --target these are all
+    /// targets, placed and routed where that can be had; without --param the sets default and small
     #[arg(long)]
     figures: bool,
 }
@@ -60,7 +60,8 @@ pub fn run(arguments: &Arguments) -> Result {
     let sets = named(&arguments.param, &["default"], &["default", "small"]);
     let sets = sets.iter().map(|name| select::width_set(Some(name))).collect::<std::result::Result<Vec<_>, _>>()?;
     // The programs are looked for before the work.
-    let routed = |target: &Target| arguments.pnr || arguments.figures && target.route.is_ok();
+    let routed =
+        |target: &Target| arguments.pnr || arguments.figures && arguments.target.is_empty() && target.route.is_ok();
     let tools = targets.iter().map(|target| Tools::find(target, routed(target)));
     let tools = tools.collect::<std::result::Result<Vec<_>, _>>()?;
     let project = Path::new("");
@@ -131,11 +132,13 @@ fn advice(rows: &[Row]) -> std::result::Result<String, std::fmt::Error> {
             writeln!(text, "{} at {}: {fmax:.1} MHz on {}, and {goal} are asked for", row.block, row.set, row.target)?;
         }
         let others = || rows.iter().filter(|other| other.block == row.block && other.target == row.target);
-        if row.does_not_fit.is_some() && row.set != "small" && !others().any(|other| other.set == "small") {
-            writeln!(text, "{} at {} does not fit {}: try --param small", row.block, row.set, row.target)?;
-        }
-        if row.does_not_fit.is_some() && row.set == "small" {
-            writeln!(text, "{} does not fit {} even at small", row.block, row.target)?;
+        match (&row.no_clock, row.set.as_str()) {
+            (None, _) => {}
+            (Some(_), "small") => writeln!(text, "{} has no clock on {} even at small", row.block, row.target)?,
+            (Some(_), _) if others().any(|other| other.set == "small") => {}
+            (Some(_), set) => {
+                writeln!(text, "{} at {set} has no clock on {}: try --param small", row.block, row.target)?
+            }
         }
     }
     Ok(text)

@@ -91,7 +91,8 @@ impl Figures {
 
     /// A table for each part, or for the README's alone.
     pub fn tables(&self, every: bool) -> String {
-        let targets = TARGETS.iter().filter(|target| every || target.name == MAIN);
+        let measured = |target: &&Target| self.rows.iter().any(|row| row.target == target.name);
+        let targets = TARGETS.iter().filter(|target| every || target.name == MAIN).filter(measured);
         targets.map(|target| self.table(target, every)).collect::<Vec<_>>().join("\n")
     }
 
@@ -107,8 +108,8 @@ impl Figures {
         let _ = writeln!(text, "|---|---|---:|---:|---:|---:|---:|---:|{}", if paths { "---|" } else { "" });
         for row in rows {
             let number = |value: Option<f64>| value.map_or("-".into(), |value| format!("{value:.1}"));
-            let clock = match &row.does_not_fit {
-                Some(_) if !paths => "does not fit".into(),
+            let clock = match &row.no_clock {
+                Some(reason) if !paths => reason.split(':').next().unwrap_or_default().into(),
                 _ => number(row.fmax_mhz),
             };
             let _ = write!(
@@ -134,8 +135,8 @@ impl Figures {
 impl Row {
     /// What limits the clock, or why there is none; empty where none was asked for.
     pub fn limit(&self) -> String {
-        match (&self.does_not_fit, &self.critical_path) {
-            (Some(reason), _) => format!("does not fit: {reason}"),
+        match (&self.no_clock, &self.critical_path) {
+            (Some(reason), _) => reason.clone(),
             (None, Some(path)) => path.to_string(),
             (None, None) => String::new(),
         }

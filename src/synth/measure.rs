@@ -44,8 +44,8 @@ pub struct Row {
     pub mbeats_per_s: Option<f64>,
     /// What limits it, at the seed of the median.
     pub critical_path: Option<CriticalPath>,
-    /// Why there is no clock: `512 of 208 DP16KD`, or what nextpnr said.
-    pub does_not_fit: Option<String>,
+    /// Why there is none: `does not fit: 512 of 208 DP16KD`, or what nextpnr said.
+    pub no_clock: Option<String>,
     /// The programs with their versions.
     pub tools: Vec<String>,
 }
@@ -118,7 +118,7 @@ impl<'b> Bench<'b> {
         let (folder, sources) = (self.folder(), self.sources());
         let counts = yosys::map(&tools.yosys, folder, &sources, self.top(), target)?;
         let mut row = self.row(target, tools, counts);
-        let (Some(nextpnr), Ok(route), None) = (&tools.nextpnr, &target.route, &row.does_not_fit) else {
+        let (Some(nextpnr), Ok(route), None) = (&tools.nextpnr, &target.route, &row.no_clock) else {
             return Ok(row);
         };
         let harness = harness::name(self.emission.top_module());
@@ -127,7 +127,7 @@ impl<'b> Bench<'b> {
             (1..=seeds).into_par_iter().map(|seed| nextpnr::run(nextpnr, folder, route, seed)).collect();
         match runs {
             Ok(runs) => row.set_clock(runs, cycles(self.block.interval())),
-            Err(reason) => row.does_not_fit = Some(reason),
+            Err(reason) => row.no_clock = Some(reason),
         }
         Ok(row)
     }
@@ -147,7 +147,7 @@ impl<'b> Bench<'b> {
             seeds_mhz: vec![],
             mbeats_per_s: None,
             critical_path: None,
-            does_not_fit: counts.excess(target),
+            no_clock: counts.excess(target).map(|excess| format!("does not fit: {excess}")),
             tools: programs.map(|program| program.version.clone()).collect(),
         }
     }
