@@ -3,7 +3,7 @@
 
 use super::hardware::draw;
 use super::{Engine, MethodError, Tessellation};
-use relief_models::bake::{Baked, Flip, unflip};
+use relief_models::bake::{Baked, Flip, Tolerance, unflip};
 use relief_models::bisector::{Bound, Counts, Errors, Lattice, SplitMap, Triangle, Vertex, golden};
 use relief_models::mesh::{Progress, TriangleMesh};
 use rustc_hash::FxHashMap;
@@ -41,7 +41,7 @@ pub struct Memories {
 }
 
 impl Memories {
-    /// Those of a prepared map, with its split map, or with its errors where `bound` is given: see [`bound_of`].
+    /// Those of a prepared map: with its split map, or with its errors where a bound is given.
     ///
     /// # Errors
     /// A sentence: the folder does not hold what is asked for.
@@ -57,11 +57,9 @@ impl Memories {
         let ((split, heights), entry) = split.zip(heights).zip(manifest.split).ok_or_else(|| {
             unfit("the folder holds no split map; bake it with `--what split`, or give a bound for its errors")
         })?;
-        let [over, under] = entry.maximum;
-        let claim = entry
-            .bound
-            .parse::<relief_models::bake::Tolerance>()
-            .map_or_else(|_| over as f64 / under as f64, |bound| f64::from(bound.over()) / f64::from(bound.under()));
+        let bound: Tolerance =
+            entry.bound.parse().map_err(|error| MethodError::Unfit(format!("split.bound of bake.json: {error}")))?;
+        let claim = f64::from(bound.over()) / f64::from(bound.under());
         Ok(Self { lattice, steered: Steered::Split(split), heights, flipped: entry.flipped, claim })
     }
 
