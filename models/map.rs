@@ -80,6 +80,11 @@ impl HeightMap {
         self.samples[j * self.width + i]
     }
 
+    /// The least and the greatest sample; of no sample, 65535 and 0.
+    pub fn range(&self) -> [u16; 2] {
+        self.samples.iter().fold([u16::MAX, 0], |[low, high], &at| [low.min(at), high.max(at)])
+    }
+
     /// The map with its first column, or row, once more behind the last one of each axis that repeats: a whole period from
     /// rim to rim.
     pub fn unrolled(&self, wrap: [Wrap; 2]) -> HeightMap {

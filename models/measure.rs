@@ -15,7 +15,7 @@ mod nearest;
 mod side;
 mod surface;
 
-pub use heights::{Heights, heights};
+pub use heights::{BoundAt, Heights, heights, heights_under};
 pub use side::Side;
 pub use surface::{Amount, Both, OneWay, Sampling, Surface, surface};
 

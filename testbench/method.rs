@@ -61,7 +61,7 @@ pub enum Goal {
 pub struct Hardware {
     /// Cycles, by the block's own counter, from the first beat of the draw to the last triangle; the map is loaded before.
     pub cycles: u64,
-    /// Words read from its map memories.
+    /// Words read from its map memories, by its algorithm: not counted in the block.
     pub reads: u64,
     /// Bits that the map takes in them.
     pub memory_bits: u64,
@@ -74,6 +74,8 @@ pub struct Tessellation {
     pub mesh: TriangleMesh,
     /// The largest error that the method promises, in map units; none for a method that promises nothing.
     pub claim: Option<f64>,
+    /// What it promises sample by sample, where that grows with the distance from an eye; then `claim` is the most of it.
+    pub growing: Option<Growing>,
     /// What the hardware took; none when none ran.
     pub hardware: Option<Hardware>,
     /// Seconds of preparation on the host: the map becomes what the memories hold.

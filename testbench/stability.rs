@@ -58,7 +58,7 @@ pub const BASE_GRID: u64 = 128;
 
 /// The goals on a map: 2 % of its range as bound (1 unit where there is none), and the triangles of a base grid.
 pub fn goals(map: &HeightMap) -> [Goal; 2] {
-    let (low, high) = map.samples.iter().fold((u16::MAX, 0), |(low, high), &at| (at.min(low), at.max(high)));
+    let [low, high] = map.range();
     let fiftieths = u32::from(high.saturating_sub(low)).max(50);
     let bound = Tolerance::new(fiftieths, 50).unwrap_or_else(|| unreachable!("at most 65535 / 50"));
     [Goal::Bound(bound), Goal::Triangles(BASE_GRID)]

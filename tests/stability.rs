@@ -78,7 +78,9 @@ fn stability_fails_for_no_method_in_hardware() {
         );
     }
     let count = maps().len();
-    let expected = format!("{} meshes: {} claims hold, 0 broken\n", 2 * count * METHODS.len(), 4 * count);
+    // The remesher cannot keep 2 % on 3 columns of noise.
+    let meshes = 2 * count * METHODS.len() - 1;
+    let expected = format!("{meshes} meshes, 1 refused: {} claims hold, 0 broken\n", 4 * count);
     assert!(text.ends_with(&expected), "{text}");
     // Every bisection ran as hardware.
     let drawn = text.lines().filter(|line| line.trim_start().starts_with("bisector")).map(|line| {

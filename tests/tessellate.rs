@@ -3,7 +3,7 @@
 
 use image::{ImageBuffer, Luma};
 use relief_models::map::{HeightMap, Procedural};
-use relief_models::measure::{Heights, heights};
+use relief_models::measure::{Heights, heights, heights_under};
 use relief_models::mesh::TriangleMesh;
 use relief_testbench::cosim::tools;
 use std::fs;
@@ -135,7 +135,11 @@ fn tessellate_draws_prepared_maps() {
     // A bound that grows is kept at every sample, and is worth something.
     let growing = ["--bound", "300", "--slope", "100", "--eye", "10,20"];
     let (_, found, stdout) = mesh(&baked, &[&growing[..], &interpolated].concat());
-    assert!(found.is_whole() && found.max <= 300.0 + 100.0 * 50.0, "{stdout}");
+    let written = TriangleMesh::read(Path::new(&folder.path("mesh.ply")), &()).unwrap();
+    let under = |[i, j]: [usize; 2]| 300.0 + 100.0 * i.abs_diff(10).max(j.abs_diff(20)) as f64;
+    let (_, slack) = heights_under(&written, &hills(), &under, &()).unwrap();
+    assert!(found.is_whole() && slack >= 0.0 && found.max > 300.0, "{slack} {stdout}");
+    assert!((figure(stdout.split("slack of").nth(1).unwrap(), " ") - slack).abs() < 0.01, "{slack} {stdout}");
     assert!(found.triangles < triangles[0] / 2, "{stdout}");
     let near = {
         let mesh = TriangleMesh::read(Path::new(&folder.path("mesh.ply")), &()).unwrap();
@@ -270,7 +274,22 @@ fn tessellate_refuses_bad_input_and_leaves_nothing() {
         (&text, &["--bound", "5"], "is no PNG"),
         (&baked, &[], "the folder holds no split map"),
         (&baked, &["--bound", "5"], "the folder holds no errors"),
-        (&baked, &["--method", "uniform", "--bound", "5"], "is a prepared map; --method bisector draws it"),
+        (
+            &baked,
+            &["--method", "uniform", "--bound", "5"],
+            "is a map prepared for bisector-interpolated, and uniform is",
+        ),
+        (&map, &["--triangles", "90", "--slope", "1", "--eye", "4,4"], "cannot be used with"),
+        (
+            &map,
+            &["--method", "bisector-interpolated", "--bound", "5", "--slope", "9", "--eye", "61,4"],
+            "the eye is at 61,4, beyond the map; a sample of its 61 x 43 is expected",
+        ),
+        (
+            &map,
+            &["--method", "bisector-interpolated", "--bound", "5", "--slope", "9000", "--eye", "4,4"],
+            "map units a sample on this map, and 9000 is beyond",
+        ),
         (half, &["--bound", "0.01"], "object 1 has no base triangle at u = 1"),
         (half, &["--bound", "none"], "world units from 0 on are expected"),
         (half, &[], "a goal is expected: --bound E, in world units, or --triangles N"),

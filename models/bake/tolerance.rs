@@ -33,6 +33,10 @@ impl Tolerance {
     pub const fn under(self) -> u32 {
         self.under
     }
+    /// In doubles.
+    pub fn value(self) -> f64 {
+        f64::from(self.over) / f64::from(self.under)
+    }
 }
 
 impl fmt::Display for Tolerance {

@@ -104,6 +104,31 @@ struct Vertex {
 /// # Errors
 /// A sentence: the map is no surface, or the mesh is none over this map.
 pub fn heights(mesh: &TriangleMesh, map: &HeightMap, progress: &dyn Progress) -> Result<Heights, MeasureError> {
+    examine(mesh, map, None, progress).map(|(heights, _)| heights)
+}
+
+/// The same, and the least of bound less error over all samples, the bound being one of column and row.
+///
+/// # Errors
+/// As [`heights`].
+pub fn heights_under(
+    mesh: &TriangleMesh,
+    map: &HeightMap,
+    bound: BoundAt<'_>,
+    progress: &dyn Progress,
+) -> Result<(Heights, f64), MeasureError> {
+    examine(mesh, map, Some(bound), progress)
+}
+
+/// A bound at a column and a row.
+pub type BoundAt<'a> = &'a (dyn Fn([usize; 2]) -> f64 + Sync);
+
+fn examine(
+    mesh: &TriangleMesh,
+    map: &HeightMap,
+    bound: Option<BoundAt<'_>>,
+    progress: &dyn Progress,
+) -> Result<(Heights, f64), MeasureError> {
     let (vertices, bits, off_lattice) = on_lattice(mesh, map)?;
     progress.phase("edges", 3 * mesh.triangles.len() as u64);
     // A mesh that gives each triangle vertices of its own is judged by its places.
@@ -118,12 +143,12 @@ pub fn heights(mesh: &TriangleMesh, map: &HeightMap, progress: &dyn Progress) ->
         mesh.triangles.par_iter().map(|corners| corners.map(|corner| number[corner as usize])).collect();
     drop(number);
     let rim = [map.width, map.height].map(|side| ((side - 1) as i32) << bits);
-    let found = edges::examine(&triangles, |from, to| {
+    let edges = edges::examine(&triangles, |from, to| {
         let (from, to) = (&places.keys[from as usize], &places.keys[to as usize]);
         (from.0 == to.0 && (from.0 == 0 || from.0 == rim[0])) || (from.1 == to.1 && (from.1 == 0 || from.1 == rim[1]))
     });
     drop(triangles);
-    let grid = Grid { map, vertices: &vertices, triangles: &mesh.triangles, bits };
+    let grid = Grid { map, vertices: &vertices, triangles: &mesh.triangles, bits, bound };
     let mut orientation = [0u64; 3];
     for triangle in &mesh.triangles {
         orientation[(grid.corners(*triangle).1.signum() + 1) as usize] += 1;
@@ -143,10 +168,9 @@ pub fn heights(mesh: &TriangleMesh, map: &HeightMap, progress: &dyn Progress) ->
     let mut total = Tally::default();
     tallies.iter().for_each(|tally| total.join(tally));
     let sums = Sums::new(map, tallies.iter().flat_map(|tally| tally.errors.iter().copied()));
-    let bounds = map.samples.iter().fold([u16::MAX, 0], |[low, high], sample| [low.min(*sample), high.max(*sample)]);
-    Ok(Heights {
+    let found = Heights {
         size: [map.width, map.height],
-        range: bounds,
+        range: map.range(),
         triangles: mesh.triangles.len(),
         vertices: places.keys.len(),
         max: total.max,
@@ -158,13 +182,14 @@ pub fn heights(mesh: &TriangleMesh, map: &HeightMap, progress: &dyn Progress) ->
         map_volume: sums.map_volume,
         uncovered: sums.uncovered,
         several_heights: total.several,
-        open_edges: found.open,
-        nonmanifold_edges: found.nonmanifold,
-        inconsistent_edges: found.inconsistent,
+        open_edges: edges.open,
+        nonmanifold_edges: edges.nonmanifold,
+        inconsistent_edges: edges.inconsistent,
         folded: orientation[0].min(orientation[2]),
         degenerate: orientation[1],
         off_lattice,
-    })
+    };
+    Ok((found, total.slack))
 }
 
 /// The vertices on the lattice, its fraction bits, and how many vertices had to move.
@@ -217,6 +242,7 @@ struct Grid<'a> {
     vertices: &'a [Vertex],
     triangles: &'a [[u32; 3]],
     bits: u32,
+    bound: Option<BoundAt<'a>>,
 }
 
 impl Grid<'_> {
@@ -269,6 +295,9 @@ impl Grid<'_> {
                     if error.abs() > tally.max || (error.abs() == tally.max && tally.is_later(*index)) {
                         tally.max = error.abs();
                         tally.max_at = Some((*index, [column, row]));
+                    }
+                    if let Some(bound) = self.bound {
+                        tally.slack = tally.slack.min(bound([column, row]) - error.abs());
                     }
                     let known = &mut errors[column];
                     if known[0].is_nan() {
@@ -334,14 +363,21 @@ impl Span {
 }
 
 /// What is found in some rows.
-#[derive(Default)]
 struct Tally {
     max: f64,
+    /// The least of bound less error.
+    slack: f64,
     /// The first triangle with the greatest error, and its first sample.
     max_at: Option<(u32, [usize; 2])>,
     several: u64,
     /// Of each sample the error of the first triangle that holds it; NaN if none does.
     errors: Vec<f64>,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self { max: 0.0, slack: f64::INFINITY, max_at: None, several: 0, errors: Vec::new() }
+    }
 }
 
 impl Tally {
@@ -356,6 +392,7 @@ impl Tally {
         if below.max > self.max || as_great {
             (self.max, self.max_at) = (below.max, below.max_at);
         }
+        self.slack = self.slack.min(below.slack);
         self.several += below.several;
     }
 }

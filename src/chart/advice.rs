@@ -86,8 +86,8 @@ pub fn kind(subject: &Subject) -> (&'static str, String) {
         true => (
             "terrain, or a single shape",
             format!(
-                "It does not come back on itself when it is shifted ({measured}). Rough and smooth parts differ from place \
-                 to place, so a method that puts triangles where the error is can save many."
+                "It does not come back on itself when it is shifted ({measured}). Where rough and smooth parts differ from \
+                 place to place, a method that puts triangles where the error is saves many; the table tells how many."
             ),
         ),
         false => (

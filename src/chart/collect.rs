@@ -57,7 +57,7 @@ fn tolerances(subject: &Subject) -> impl Iterator<Item = Tolerance> {
 
 /// The bounds that any method is asked for, from coarse to fine: the goals of the peers.
 pub fn bounds(subject: &Subject, count: usize) -> Vec<Tolerance> {
-    let value = |bound: &Tolerance| f64::from(bound.over()) / f64::from(bound.under());
+    let value = |bound: &Tolerance| bound.value();
     let mut bounds: Vec<Tolerance> = Vec::new();
     for goal in METHODS.iter().flat_map(|method| goals(*method, subject, count)) {
         if let Goal::Bound(bound) = goal
@@ -73,7 +73,7 @@ pub fn bounds(subject: &Subject, count: usize) -> Vec<Tolerance> {
 /// What is asked for, in words.
 pub fn describe(goal: Goal) -> String {
     match goal {
-        Goal::Bound(bound) => format!("bound {}", f64::from(bound.over()) / f64::from(bound.under())),
+        Goal::Bound(bound) => format!("bound {}", bound.value()),
         Goal::Triangles(most) => format!("triangles {most}"),
     }
 }

@@ -152,7 +152,7 @@ impl Peers {
 fn goals(peer: Peer, chapter: &Chapter, count: usize) -> Vec<(f64, Goal)> {
     if peer != Peer::Meshoptimizer {
         let bounds = collect::bounds(&chapter.subject, count).into_iter();
-        return bounds.map(|bound| (f64::from(bound.over()) / f64::from(bound.under()), Goal::Bound(bound))).collect();
+        return bounds.map(|bound| (bound.value(), Goal::Bound(bound))).collect();
     }
     // It has no bound on the height: as many triangles as Delaunay took, or else our own first method.
     let of = |name: &str| chapter.points.iter().filter(|point| point.method == name).collect::<Vec<_>>();
@@ -176,7 +176,7 @@ fn point(
 ) -> Result<Point, MeasureError> {
     let heights = heights(mesh, &subject.map, progress)?;
     let claim = match goal {
-        Goal::Bound(bound) => Some(f64::from(bound.over()) / f64::from(bound.under())),
+        Goal::Bound(bound) => Some(bound.value()),
         Goal::Triangles(_) => None,
     };
     Ok(Point {

@@ -70,7 +70,7 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     meter.finish();
     if failed > 0 {
-        write_all(stderr(), &format!("mismatch: {failed} properties do not hold\n"))?;
+        write_all(stderr(), &format!("mismatch: properties that do not hold: {failed}\n"))?;
         return Ok(Outcome::Mismatch);
     }
     Ok(Outcome::Agreed)

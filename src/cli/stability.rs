@@ -11,7 +11,7 @@ use super::{Meter, Outcome, Result, write_all};
 
 /// Tessellate the maps on which methods are known to fail, with every method
 ///
-/// Each map is tessellated under a bound of 2 % of its range, and with the triangles of a grid of 8 x 8 cells. A mesh that
+/// Each map is tessellated under a bound of 2 % of its range (of 1 where it has none), and with the triangles of a grid of 8 x 8 cells. A mesh that
 /// is not whole, or has an error above its method's claim, is BROKEN and fails the command. Errors are in percent of the
 /// map's range.
 #[derive(clap::Args)]
@@ -37,15 +37,17 @@ pub fn run(arguments: &Arguments) -> Result {
     };
     write_all(stdout(), &table(&maps(), &rows))?;
     let broken = rows.iter().filter(|row| row.is_broken()).count();
-    let held = rows.iter().filter(|row| row.result.as_ref().is_ok_and(|made| made.claim.is_some())).count() - broken;
-    write_all(stdout(), &format!("\n{} meshes: {held} claims hold, {broken} broken\n", rows.len()))?;
+    let meshes: Vec<_> = rows.iter().filter_map(|row| row.result.as_ref().ok()).collect();
+    let held = meshes.iter().filter(|made| matches!(made.verdict, Verdict::Holds { .. })).count();
+    let (made, refused) = (meshes.len(), rows.len() - meshes.len());
+    write_all(stdout(), &format!("\n{made} meshes, {refused} refused: {held} claims hold, {broken} broken\n"))?;
     Ok(if broken == 0 { Outcome::Agreed } else { Outcome::Mismatch })
 }
 
 fn table(maps: &[FailureMap], rows: &[Row]) -> String {
     let mut text = String::new();
     for FailureMap { name, why, map } in maps {
-        let (low, high) = map.samples.iter().fold((u16::MAX, 0), |(low, high), &at| (at.min(low), at.max(high)));
+        let [low, high] = map.range();
         text += &format!("{name}, {} x {}: {why}\n", map.width, map.height);
         let heads = ["method", "goal", "triangles", "max %", "rms %", "claim %", "slack %", "cycles"];
         text += &cells(&heads.map(str::to_owned), "verdict");

@@ -28,9 +28,9 @@ mod scene;
 pub struct Arguments {
     /// A map (.png), a scene (.toml), or a folder written by `relief bake`
     input: PathBuf,
-    /// How; docs/tessellate.md compares them
-    #[arg(long, default_value = "bisector", value_parser = methods())]
-    method: String,
+    /// How; docs/tessellate.md compares them [default: bisector; of a prepared map, what it was prepared for]
+    #[arg(long, value_parser = methods())]
+    method: Option<String>,
     /// The largest error: map units (20, 16.8 or 50/3), in a scene world units
     #[arg(long, value_name = "E", allow_negative_numbers = true)]
     bound: Option<String>,
@@ -38,7 +38,7 @@ pub struct Arguments {
     #[arg(long, value_name = "N", value_parser = super::count, conflicts_with = "bound", allow_negative_numbers = true)]
     triangles: Option<u64>,
     /// The bound grows by so many map units a sample with the distance from the eye; for bisector-interpolated
-    #[arg(long, value_name = "SLOPE", requires = "eye", requires = "bound", value_parser = slope, allow_negative_numbers = true)]
+    #[arg(long, value_name = "SLOPE", requires = "eye", conflicts_with = "triangles", value_parser = slope, allow_negative_numbers = true)]
     slope: Option<f64>,
     /// Column and row of the eye
     #[arg(long, value_name = "U,V", requires = "slope", value_parser = eye, allow_negative_numbers = true)]
@@ -117,13 +117,17 @@ impl Arguments {
         let engine = self.engine.resolve()?;
         // Only this one searches.
         let fitted = Bisector { effort: Some(self.effort) };
-        let method = method::find(&self.method).ok_or("no such method")?;
+        let method = method::find(self.method()).ok_or("no such method")?;
         let method = if method.name() == method::Method::name(&fitted) { &fitted } else { method };
         Ok(method.tessellate_within(map, borders, goal, engine, meter)?)
     }
 
+    fn method(&self) -> &str {
+        self.method.as_deref().unwrap_or("bisector")
+    }
+
     fn growing(&self, base: Tolerance) -> Option<Growing> {
-        let base = f64::from(base.over()) / f64::from(base.under());
+        let base = base.value();
         self.slope.zip(self.eye).map(|(slope, eye)| Growing { base, slope, eye })
     }
 }
@@ -155,7 +159,7 @@ fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
     };
     let tessellation = match goal {
         Goal::Bound(bound) if arguments.slope.is_some() => {
-            if arguments.method != "bisector-interpolated" {
+            if arguments.method() != "bisector-interpolated" {
                 return Err(
                     "--slope and --eye are for --method bisector-interpolated: fitted heights serve one bound".into()
                 );
@@ -168,14 +172,11 @@ fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
         }
         _ => arguments.tessellate(&map, Borders::CLAMP, goal, meter).map_err(named)?,
     };
-    measured(arguments, &map, tessellation, meter)
+    measured(arguments.method(), &map, tessellation, meter)
 }
 
 /// The mesh of a folder that has been prepared.
 fn baked(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
-    if arguments.method != "bisector" && arguments.method != "bisector-interpolated" {
-        return Err(format!("{}: is a prepared map; --method bisector draws it", arguments.input.display()).into());
-    }
     if arguments.triangles.is_some() {
         return Err(
             "--triangles is for maps and scenes; a prepared map takes --bound, or nothing for its split map".into()
@@ -185,20 +186,30 @@ fn baked(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
     let engine = arguments.engine.resolve()?;
     let baked = Baked::read(&arguments.input)?;
     let map = baked.map.clone();
+    // Fitted heights are those of a split map; its errors are of the map's own.
+    let fitted = bound.is_none() && baked.manifest.split.as_ref().is_some_and(|split| split.fitted);
+    let method = if fitted { "bisector" } else { "bisector-interpolated" };
+    if let Some(wanted) = arguments.method.as_deref().filter(|wanted| *wanted != method) {
+        let what = format!("{}: is a map prepared for {method}, and {wanted} is asked for", arguments.input.display());
+        return Err(format!("{what}; the map itself serves every method").into());
+    }
+    if arguments.slope.is_some() && bound.is_none() {
+        return Err("--slope and --eye belong to a --bound".into());
+    }
     let growing = bound.map(|bound| {
-        let base = f64::from(bound.over()) / f64::from(bound.under());
+        let base = bound.value();
         arguments.growing(bound).unwrap_or(Growing { base, slope: 0.0, eye: [0; 2] })
     });
     let memories =
         Memories::of_baked(baked, growing).map_err(|error| format!("{}: {error}", arguments.input.display()))?;
     let tessellation = memories.tessellate(engine, 0.0, meter)?;
-    measured(arguments, &map, tessellation, meter)
+    measured(method, &map, tessellation, meter)
 }
 
-fn measured(arguments: &Arguments, map: &HeightMap, made: Tessellation, meter: &Meter) -> Worked<Made> {
+fn measured(method: &str, map: &HeightMap, made: Tessellation, meter: &Meter) -> Worked<Made> {
     let measured = made.measure(map, meter)?;
     let mut text = line("map", &format!("{} x {} samples", map.width, map.height));
-    text += &line("method", &arguments.method);
+    text += &line("method", method);
     text += &table(&made, &measured, 1.0);
     Ok(Made { mesh: made.mesh, text, broken: measured.verdict == method::Verdict::Broken })
 }

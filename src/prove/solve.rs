@@ -54,7 +54,8 @@ impl Solver {
         let here = env::current_dir().map_err(|error| format!("there is no current folder: {error}"))?;
         let local = here.ancestors().map(|folder| folder.join(TOOLS)).filter(|folder| folder.is_dir());
         let given = env::var_os("PATH").unwrap_or_default();
-        let path = env::join_paths(env::split_paths(&given).chain(local)).map_err(|error| format!("PATH: {error}"))?;
+        // The version that is pinned comes first.
+        let path = env::join_paths(local.chain(env::split_paths(&given))).map_err(|error| format!("PATH: {error}"))?;
         let mut solver = Solver { path, version: String::new() };
         let ask = |name: &str| {
             let found = program::run(solver.command(name).arg("--version"), name, Duration::from_secs(60)).ok();
@@ -120,7 +121,8 @@ impl<'a> Proof<'a> {
             let reason = text.lines().find(|line| line.contains("ERROR")).unwrap_or("it gave no reason").trim();
             return Err(format!("{what} failed: {reason}"));
         }
-        let path = fs::read_to_string(folder.path().join("path.txt")).unwrap_or_default();
+        let path = fs::read_to_string(folder.path().join("path.txt"))
+            .map_err(|error| format!("{what}: what follows out_ready was not written: {error}"))?;
         let follows = path.lines().map(|line| line.trim_start_matches(&format!("{TOP}/")).to_owned()).collect();
         Ok(Proof { solver, contract, folder, follows })
     }
@@ -139,6 +141,10 @@ impl<'a> Proof<'a> {
                 }
                 if self.solve(property, Some(INDUCTION), true, waveform)? == passed() {
                     return Ok(Verdict::Proved(format!("induction over {INDUCTION} cycles")));
+                }
+                if *reach == 0 {
+                    let what = "induction does not close, and the first beat comes later than a solver sees";
+                    return Err(format!("`held` of {}: {what}", self.contract.block));
                 }
                 // Further from reset, then.
                 let cycles = (*reach).max(INDUCTION);

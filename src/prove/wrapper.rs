@@ -47,7 +47,6 @@ pub fn wrapper(emission: &Emission, contract: &Contract, fault: Option<Property>
     add("wire block_in_valid, block_out_valid;".into());
     add(format!("{} block ({});", emission.top, connections.join(", ")));
     // What the monitors see, or what a fault makes of it.
-    let is = |property| fault == Some(property);
     add("reg stalled = 0, gone = 0, again = 0;".into());
     add("wire asked = in_valid && in_ready;".into());
     add("wire taken = out_valid && out_ready;".into());
@@ -57,7 +56,7 @@ pub fn wrapper(emission: &Emission, contract: &Contract, fault: Option<Property>
     add("    gone <= !reset && (gone || asked);".into());
     add("end".into());
     // The first beat never arrives.
-    let lost = if is(Property::Answered) { " && gone" } else { "" };
+    let lost = if fault == Some(Property::Answered) { " && gone" } else { "" };
     add(format!("assign block_in_valid = in_valid{lost};"));
     add(format!(
         "assign out_valid = {};",
@@ -69,13 +68,17 @@ pub fn wrapper(emission: &Emission, contract: &Contract, fault: Option<Property>
             _ => "block_out_valid",
         }
     ));
-    for (at, (name, _)) in payload.iter().enumerate() {
-        let turned = if is(Property::Equal) && at == 0 { " ^ 1" } else { "" };
-        add(format!("assign {name} = block_{name}{turned};"));
-    }
     let bits: usize = payload.iter().map(|(_, bits)| bits).sum();
     let all = payload.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ");
+    let inner = payload.iter().map(|(name, _)| format!("block_{name}")).collect::<Vec<_>>().join(", ");
     add(format!("reg [{}:0] before;", bits - 1));
+    add(format!("wire [{}:0] now = {{{inner}}};", bits - 1));
+    add(match fault {
+        // The last beat once more.
+        Some(Property::Counted) => format!("assign {{{all}}} = again ? before : now;"),
+        Some(Property::Equal) => format!("assign {{{all}}} = now ^ {{{{{bits}{{1'b0}}}}, 1'b1}};"),
+        _ => format!("assign {{{all}}} = now;"),
+    });
     add(format!("always @(posedge clock) before <= {{{all}}};"));
     add("always @* if (stalled) begin".into());
     add("    held_valid: assert (out_valid);".into());

@@ -48,18 +48,19 @@ impl Bisector {
                 ([false; 2], unfitted_with_seams(&ground, bound, seams), heights)
             }
         };
-        let claim = f64::from(bound.over()) / f64::from(bound.under());
-        Ok(Memories { lattice, steered: Steered::Split(split), heights, flipped, claim })
+        let claim = bound.value();
+        let steered = Steered::Split(split);
+        Ok(Memories { lattice, steered, heights, flipped, claim, growing: None })
     }
 
     /// The memories for a bound of the draw that grows with the distance from an eye, with the heights of the map.
     ///
     /// # Errors
-    /// The map is too small or too large.
+    /// The map is too small or too large, or see [`Memories::of_errors`].
     pub fn growing(map: &HeightMap, growing: Growing, progress: &dyn Progress) -> Result<Memories, MethodError> {
         let lattice = lattice_of(map)?;
         let found = saturated(&Ground { lattice, samples: &map.samples }, progress);
-        Ok(Memories::of_errors(lattice, &map.samples, found.errors, found.fraction_bits, growing))
+        Memories::of_errors(lattice, &map.samples, found.errors, found.fraction_bits, growing)
     }
 
     /// The smallest bound, down to a tenth of a map unit, whose mesh has at most so many triangles.
@@ -124,7 +125,7 @@ impl Method for Bisector {
         true
     }
     fn goals(&self, map: &HeightMap, count: usize) -> Vec<Goal> {
-        let (low, high) = map.samples.iter().fold((u16::MAX, 0), |(low, high), &at| (at.min(low), at.max(high)));
+        let [low, high] = map.range();
         // A quarter of the range, and halves of it.
         let range = u32::from(high.saturating_sub(low)) * 10;
         let tenths = (0..count as u32).map(|halvings| (range / 4) >> halvings).filter(|&tenths| tenths > 0);

@@ -3,14 +3,14 @@
 
 use super::Tessellation;
 use relief_models::map::HeightMap;
-use relief_models::measure::{Heights, MeasureError, heights};
+use relief_models::measure::{Heights, MeasureError, heights, heights_under};
 use relief_models::mesh::Progress;
 use relief_models::vertex_cache::{ENTRIES, misses};
 
 /// Whether a mesh is what its method says.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Verdict {
-    /// The mesh is whole, and so far below its claim, in map units.
+    /// The mesh is whole, and at every sample so far below its claim, in map units.
     Holds {
         /// Claim less error.
         slack: f64,
@@ -62,8 +62,18 @@ impl Tessellation {
     /// # Errors
     /// A sentence: the mesh is none over this map.
     pub fn measure(&self, map: &HeightMap, progress: &dyn Progress) -> Result<Measured, MeasureError> {
-        let heights = heights(&self.mesh, map, progress)?;
-        let verdict = verdict(&heights, self.claim);
+        let (heights, verdict) = match self.growing {
+            None => {
+                let heights = heights(&self.mesh, map, progress)?;
+                let verdict = verdict(&heights, self.claim);
+                (heights, verdict)
+            }
+            Some(growing) => {
+                let (heights, slack) = heights_under(&self.mesh, map, &|sample| growing.at(sample), progress)?;
+                let holds = heights.is_whole() && slack >= -ROUNDING;
+                (heights, if holds { Verdict::Holds { slack: slack.max(0.0) } } else { Verdict::Broken })
+            }
+        };
         Ok(Measured { heights, verdict, cache_misses: misses(&self.mesh.triangles, ENTRIES) })
     }
 }

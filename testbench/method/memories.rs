@@ -38,6 +38,8 @@ pub struct Memories {
     pub flipped: Flip,
     /// The largest error that is promised, in map units.
     pub claim: f64,
+    /// The bound, if it grows.
+    pub growing: Option<Growing>,
 }
 
 impl Memories {
@@ -52,41 +54,59 @@ impl Memories {
             let (errors, entry) = errors.zip(manifest.errors).ok_or_else(|| {
                 unfit("the folder holds no errors, which a bound of the draw needs; bake it with `--what errors`")
             })?;
-            return Ok(Self::of_errors(lattice, &map.samples, errors, entry.fraction_bits, bound));
+            return Self::of_errors(lattice, &map.samples, errors, entry.fraction_bits, bound);
         }
         let ((split, heights), entry) = split.zip(heights).zip(manifest.split).ok_or_else(|| {
             unfit("the folder holds no split map; bake it with `--what split`, or give a bound for its errors")
         })?;
         let bound: Tolerance =
             entry.bound.parse().map_err(|error| MethodError::Unfit(format!("split.bound of bake.json: {error}")))?;
-        let claim = f64::from(bound.over()) / f64::from(bound.under());
-        Ok(Self { lattice, steered: Steered::Split(split), heights, flipped: entry.flipped, claim })
+        let claim = bound.value();
+        let steered = Steered::Split(split);
+        Ok(Self { lattice, steered, heights, flipped: entry.flipped, claim, growing: None })
     }
 
     /// Those of a map with saturated errors.
+    ///
+    /// # Errors
+    /// The bound grows faster than the block can count, or the eye is not over the map.
     pub fn of_errors(
         lattice: Lattice,
         samples: &[u16],
         errors: Vec<u16>,
         fraction_bits: u32,
         growing: Growing,
-    ) -> Self {
+    ) -> Result<Self, MethodError> {
         let unit = f64::from(1u32 << fraction_bits);
-        let floor = |value: f64| value.floor().clamp(0.0, 65535.0) as u16;
-        // A half step is half a sample.
-        let (base, slope) = (floor(growing.base * unit), floor(growing.slope * unit / 2.0 * 256.0));
-        let bound = Bound { base, slope, eye: growing.eye.map(|at| (2 * at.min(8191)) as u16) };
         let sides = [lattice.width, lattice.height];
+        let Growing { slope, eye, .. } = growing;
+        if eye[0] >= sides[0] || eye[1] >= sides[1] {
+            let what = format!("the eye is at {},{}, beyond the map", eye[0], eye[1]);
+            return Err(MethodError::Unfit(format!("{what}; a sample of its {} x {} is expected", sides[0], sides[1])));
+        }
+        // A half step is half a sample; the slope has 8 bits of fraction.
+        let per_sample = 2.0 / (256.0 * unit);
+        if slope > 65535.0 * per_sample {
+            let most = 65535.0 * per_sample;
+            let what = format!("the block counts slopes to {most} map units a sample on this map");
+            return Err(MethodError::Unfit(format!("{what}, and {slope} is beyond")));
+        }
+        // No error of the map is greater.
+        let base = (growing.base * unit).floor().min(65535.0) as u16;
+        let slope = (slope / per_sample).floor() as u16;
+        let bound = Bound { base, slope, eye: eye.map(|at| (2 * at) as u16) };
         // Nothing is farther from the eye than the farthest side.
         let far = (0..2).map(|axis| growing.eye[axis].max((sides[axis] - 1).abs_diff(growing.eye[axis]))).max();
         let most = u64::from(base) + ((u64::from(slope) * 2 * u64::from(far.unwrap_or(0))) >> 8);
-        Self {
+        let grows = (growing.slope > 0.0).then_some(growing);
+        Ok(Self {
             lattice,
             steered: Steered::Errors { errors, fraction_bits, bound },
             heights: samples.iter().map(|&sample| u32::from(sample) << 4).collect(),
             flipped: [false; 2],
             claim: most as f64 / unit,
-        }
+            growing: grows,
+        })
     }
 
     /// The bits of an error.
@@ -150,8 +170,8 @@ impl Memories {
             }
             _ => Some(draw(self, engine, progress, &mut |corners| builder.triangle(corners))?),
         };
-        let (mesh, claim) = (builder.mesh, Some(self.claim));
-        Ok(Tessellation { mesh, claim, hardware, preparation_seconds, golden_seconds })
+        let (mesh, claim, growing) = (builder.mesh, Some(self.claim), self.growing);
+        Ok(Tessellation { mesh, claim, growing, hardware, preparation_seconds, golden_seconds })
     }
 }
 
@@ -164,6 +184,14 @@ pub struct Growing {
     pub slope: f64,
     /// Column and row of the eye.
     pub eye: [u32; 2],
+}
+
+impl Growing {
+    /// The bound at a sample.
+    pub fn at(&self, sample: [usize; 2]) -> f64 {
+        let away = [0, 1].map(|axis| sample[axis].abs_diff(self.eye[axis] as usize));
+        self.base + self.slope * away[0].max(away[1]) as f64
+    }
 }
 
 /// Collects triangles, with each vertex once.

@@ -4,7 +4,7 @@
 
 use super::uniform::coarsest;
 use super::{Borders, Engine, Goal, Hardware, Method, MethodError, Tessellation};
-use crate::remesh::{self, GridTriangle, SCALE, remesh};
+use crate::remesh::{self, Counts, GridTriangle, SCALE, remesh};
 use relief_models::map::{HeightMap, Wrap};
 use relief_models::mesh::{Progress, TriangleMesh};
 use relief_models::mip_build::{Centring, Extremum, Pyramid, golden, golden_with_poles, max_levels};
@@ -65,7 +65,7 @@ impl Laid {
         [u, v, f64::from(height) / 256.0]
     }
 
-    fn mesh(&self, engine: remesh::Engine, progress: &dyn Progress) -> Result<(TriangleMesh, u64), MethodError> {
+    fn mesh(&self, engine: remesh::Engine, progress: &dyn Progress) -> Result<(TriangleMesh, Counts), MethodError> {
         let [x, y] = self.cells.map(|cells| cells as i32);
         let [low, right, high, left] = [[0, 0, 0], [x, 0, 0], [x, y, 0], [0, y, 0]];
         let grid = [[low, right, high], [low, high, left]];
@@ -82,7 +82,7 @@ impl Laid {
             mesh.triangles.push(corners);
             Ok(())
         })?;
-        Ok((mesh, counts.cycles))
+        Ok((mesh, counts))
     }
 }
 
@@ -131,7 +131,7 @@ impl Method for Remesher {
         let cells = match goal {
             Goal::Triangles(most) => fewer(extent, most, |cells| Ok(mesh_of(cells)?.triangles.len() as u64))?,
             Goal::Bound(bound) => {
-                let bound = f64::from(bound.over()) / f64::from(bound.under());
+                let bound = bound.value();
                 let cells = |step: usize| extent.map(|samples| samples.div_ceil(step));
                 cells(coarsest(&map.unrolled(borders.wrap), bound, |step| mesh_of(cells(step)))?)
             }
@@ -144,16 +144,16 @@ impl Method for Remesher {
         let mut hardware = None;
         if engine != Engine::Golden {
             let engine = if engine == Engine::Rust { remesh::Engine::Rust } else { remesh::Engine::Verilator };
-            let (simulated, cycles) = laid.mesh(engine, progress)?;
+            let (simulated, counts) = laid.mesh(engine, progress)?;
             if simulated != mesh {
                 return Err(MethodError::Differs("the remesher's triangles are not those of its golden model".into()));
             }
             let texels: u64 = laid.pyramid.levels.iter().map(|level| (level.width * level.height) as u64).sum();
-            // Four texels a vertex.
-            let reads = 4 * simulated.positions.len() as u64;
+            // Four texels for each vertex that was sent.
+            let (cycles, reads) = (counts.cycles, 4 * counts.sent);
             hardware = Some(Hardware { cycles, reads, memory_bits: 16 * texels });
             mesh = simulated;
         }
-        Ok(Tessellation { mesh, claim: None, hardware, preparation_seconds, golden_seconds })
+        Ok(Tessellation { mesh, claim: None, growing: None, hardware, preparation_seconds, golden_seconds })
     }
 }

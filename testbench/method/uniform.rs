@@ -28,7 +28,7 @@ pub(super) fn coarsest(
         }
         if step == 1 {
             let what = format!("with a vertex a sample the error is {error:.4}");
-            return Err(MethodError::Unfit(format!("{what}; a bound from there on is expected")));
+            return Err(MethodError::Unfit(format!("{what}; a bound of that or more is expected")));
         }
         step /= 2;
     }
@@ -61,14 +61,19 @@ impl Method for Uniform {
         }
         let map = &map.unrolled(borders.wrap);
         let begun = Instant::now();
-        let mesh = match goal {
-            Goal::Triangles(most) => with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?,
-            Goal::Bound(bound) => {
-                let bound = f64::from(bound.over()) / f64::from(bound.under());
-                with_step(map, coarsest(map, bound, |step| Ok(with_step(map, step)?))?)?
+        let step = match goal {
+            Goal::Triangles(_) => None,
+            Goal::Bound(bound) => Some(coarsest(map, bound.value(), |step| Ok(with_step(map, step)?))?),
+        };
+        let preparation_seconds = begun.elapsed().as_secs_f64();
+        let begun = Instant::now();
+        let mesh = match (goal, step) {
+            (Goal::Triangles(most), None) => {
+                with_triangles(map, usize::try_from(most).unwrap_or(usize::MAX).min(1 << 32))?
             }
+            (_, step) => with_step(map, step.unwrap_or(1))?,
         };
         let golden_seconds = begun.elapsed().as_secs_f64();
-        Ok(Tessellation { mesh, claim: None, hardware: None, preparation_seconds: 0.0, golden_seconds })
+        Ok(Tessellation { mesh, claim: None, growing: None, hardware: None, preparation_seconds, golden_seconds })
     }
 }

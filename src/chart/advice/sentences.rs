@@ -55,7 +55,8 @@ fn quicker(choice: &Choice<'_>) -> Option<String> {
     let taken = choice.taken()?;
     let promising = choice.keeping().filter(|point| point.kind == Kind::Ours && point.claim.is_some());
     let quickest = promising.min_by(|a, b| a.preparation_seconds.total_cmp(&b.preparation_seconds))?;
-    (10.0 * quickest.preparation_seconds < taken.preparation_seconds).then(|| {
+    let saves = quickest.method != taken.method && taken.heights.triangles < quickest.heights.triangles;
+    (saves && 10.0 * quickest.preparation_seconds < taken.preparation_seconds).then(|| {
         let times = figure(quickest.heights.triangles as f64 / taken.heights.triangles as f64);
         let [slow, quick] = [taken, quickest].map(|point| seconds(point.preparation_seconds));
         format!(
@@ -97,7 +98,10 @@ fn against_grid(chapter: &Chapter, choice: &Choice<'_>) -> Option<String> {
     } else {
         "fewer: it happens to suit this map"
     };
-    Some(format!("A regular grid needs {triangles} triangles for that{all}, {} times as many, {what}.", figure(times)))
+    Some(format!(
+        "The coarsest regular grid here that keeps it has {triangles} triangles{all}, {} times as many, {what}.",
+        figure(times)
+    ))
 }
 
 /// The best of the peers.

@@ -41,7 +41,7 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
             (Some(bound), _) => Goal::Bound(in_map_units(bound, unit)),
             // By the number of samples.
             (None, Some(most)) => {
-                Goal::Triangles((u128::from(most) * u128::from(samples(object)) / u128::from(all)) as u64)
+                Goal::Triangles(((u128::from(most) * u128::from(samples(object)) / u128::from(all)) as u64).max(2))
             }
             (None, None) => return Err("a goal is expected: --bound E, in world units, or --triangles N".into()),
         };
@@ -49,7 +49,9 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
         let map = if object.poles { object.map.with_poles() } else { object.map.clone() };
         let tessellation = arguments.tessellate(&map, borders, goal, meter).map_err(|error| {
             match error.downcast::<relief_testbench::method::MethodError>() {
-                Ok(error) if !error.is_mismatch() => refuse(format!("cannot be tessellated: {error}")).into(),
+                Ok(error) if !error.is_mismatch() => {
+                    refuse(format!("cannot be tessellated: {error} (in map units, of {unit} each)")).into()
+                }
                 Ok(error) => error as Box<dyn std::error::Error>,
                 Err(error) => error,
             }
@@ -61,7 +63,7 @@ pub(super) fn make(arguments: &Arguments, meter: &Meter) -> Worked<Made> {
             "object",
             &format!("{number}: {}, {} x {} samples", object.map_name, object.map.width, object.map.height),
         );
-        made.text += &line("method", &arguments.method);
+        made.text += &line("method", arguments.method());
         made.text += &table(&tessellation, &measured, unit);
         made.text += &distance(object, &map, &laid, meter).map_err(refuse)?;
         made.broken |= measured.verdict == Verdict::Broken;
