@@ -242,7 +242,7 @@ fn scene_refuses_bad_objects() {
             "kind = \"ramp\", ",
             "",
             "`map` has either a `file` (a grey PNG) or a `kind` (\"half_donut\", \"peaks\", \"paraboloid\", \
-             \"checkerboard\", \"cosine\", \"ramp\")",
+             \"checkerboard\", \"cosine\", \"ramp\", \"cubic\", \"dents\", \"peak\", \"noise\", \"waves\")",
         ),
         (
             "[8, 8]",
@@ -339,7 +339,7 @@ fn scene_of_the_repository_are_read() {
             count += 1;
         }
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
 }
 
 #[test]
