@@ -8,9 +8,8 @@ use crate::method::{Engine, Goal, Hardware, Method, MethodError, Verdict};
 use rayon::prelude::*;
 use relief_models::bake::Tolerance;
 use relief_models::map::{HeightMap, Procedural};
-use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
-
 use relief_models::mesh::Progress;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// A map with a weakness to look for.
 #[derive(Clone, Debug)]

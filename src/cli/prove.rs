@@ -8,7 +8,7 @@ use std::time::Instant;
 use relief::prove::Property;
 use relief::prove::solve::{Proof, Solver, Verdict};
 
-use super::{Meter, Outcome, Result, select, write_all};
+use super::{Outcome, Result, select, write_all};
 
 /// Prove that the emitted Verilog of blocks keeps what its streams promise
 ///
@@ -40,7 +40,6 @@ pub fn run(arguments: &Arguments) -> Result {
     let set = select::width_set(Some(&arguments.param))?;
     let solver = Solver::find()?;
     let properties = if arguments.property.is_empty() { Property::ALL.to_vec() } else { arguments.property.clone() };
-    let meter = Meter::new();
     write_all(stdout(), &format!("{:18} {:9} {:9} {:>8}\n", "block", "property", "verdict", "seconds"))?;
     let mut failed = 0;
     for block in blocks {
@@ -68,7 +67,6 @@ pub fn run(arguments: &Arguments) -> Result {
             write_all(stdout(), &line(property.name(), word, begun.elapsed().as_secs_f64(), &what))?;
         }
     }
-    meter.finish();
     if failed > 0 {
         write_all(stderr(), &format!("mismatch: properties that do not hold: {failed}\n"))?;
         return Ok(Outcome::Mismatch);

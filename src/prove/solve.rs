@@ -15,13 +15,12 @@ use relief_testbench::cosim::{program, tools};
 use super::Property;
 use super::contract::{Contract, find};
 use super::wrapper::{TOP, wrapper};
+use crate::synth::programs::folders;
 
 /// Proofs that take longer than this are given up.
 const LIMIT: Duration = Duration::from_secs(1800);
 /// Steps of an induction: the longest window of an assertion is two cycles.
 const INDUCTION: u32 = 3;
-/// Where `requirements-eda.txt` is installed, in the current folder or one above it.
-const TOOLS: &str = ".tools/eda/bin";
 
 /// How a property fared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -51,11 +50,10 @@ impl Solver {
     /// A sentence that says what to install.
     pub fn find() -> Result<Solver, String> {
         tools::find("yosys").map_err(|missing| missing.to_string())?;
-        let here = env::current_dir().map_err(|error| format!("there is no current folder: {error}"))?;
-        let local = here.ancestors().map(|folder| folder.join(TOOLS)).filter(|folder| folder.is_dir());
         let given = env::var_os("PATH").unwrap_or_default();
         // The version that is pinned comes first.
-        let path = env::join_paths(local.chain(env::split_paths(&given))).map_err(|error| format!("PATH: {error}"))?;
+        let path = env::join_paths(folders().into_iter().chain(env::split_paths(&given)))
+            .map_err(|error| format!("PATH: {error}"))?;
         let mut solver = Solver { path, version: String::new() };
         let ask = |name: &str| {
             let found = program::run(solver.command(name).arg("--version"), name, Duration::from_secs(60)).ok();

@@ -49,10 +49,14 @@ pub fn nextpnr(name: &str) -> Result<Program, String> {
     found.ok_or_else(|| format!("the program `{name}` is missing: in the project's folder, run {INSTALL}"))
 }
 
+/// The folders of tools, the nearest first.
+pub fn folders() -> Vec<PathBuf> {
+    let here = env::current_dir().unwrap_or_default();
+    here.ancestors().map(|folder| folder.join(TOOLS)).filter(|folder| folder.is_dir()).collect()
+}
+
 fn local(name: &str) -> Option<PathBuf> {
-    let here = env::current_dir().ok()?;
-    let places = here.ancestors().map(|folder| folder.join(TOOLS).join(format!("yowasp-{name}")));
-    places.into_iter().find(|place| place.is_file())
+    folders().into_iter().map(|folder| folder.join(format!("yowasp-{name}"))).find(|place| place.is_file())
 }
 
 fn ask(path: PathBuf, option: &str) -> Option<Program> {
