@@ -138,6 +138,7 @@ fn tessellate_draws_prepared_maps() {
     let written = TriangleMesh::read(Path::new(&folder.path("mesh.ply")), &()).unwrap();
     let under = |[i, j]: [usize; 2]| 300.0 + 100.0 * i.abs_diff(10).max(j.abs_diff(20)) as f64;
     let (_, slack) = heights_under(&written, &hills(), &under, &()).unwrap();
+    assert!(stdout.contains("claimed error           up to "), "{stdout}");
     assert!(found.is_whole() && slack >= 0.0 && found.max > 300.0, "{slack} {stdout}");
     assert!((figure(stdout.split("slack of").nth(1).unwrap(), " ") - slack).abs() < 0.01, "{slack} {stdout}");
     assert!(found.triangles < triangles[0] / 2, "{stdout}");
