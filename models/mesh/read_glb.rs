@@ -28,7 +28,18 @@ pub(super) fn read(source: Source<'_>, progress: &dyn Progress) -> Result<Indexe
     bytes.take(MOST_BYTES + 1).read_to_end(&mut all).map_err(|error| fail(format!("cannot be read: {error}")))?;
     progress.advance(all.len() as u64);
     examine_header(&all).map_err(fail)?;
-    let gltf = Gltf::from_slice(&all).map_err(|error| fail(format!("is no whole glTF 2.0 file: {error}")))?;
+    let broken = |error: gltf::Error| fail(format!("is no whole glTF 2.0 file: {error}"));
+    // The crate's validation looks for limits in the accessors of positions before it knows that they are there.
+    let loose = Gltf::from_slice_without_validation(&all).map_err(broken)?;
+    let root = loose.as_json();
+    let attributes = root.meshes.iter().flat_map(|mesh| &mesh.primitives).flat_map(|part| part.attributes.values());
+    if let Some(missing) = attributes.map(|index| index.value()).find(|index| *index >= root.accessors.len()) {
+        let count = root.accessors.len();
+        return Err(fail(format!(
+            "is no whole glTF 2.0 file: it names accessor {missing}, counted from 0, of {count}"
+        )));
+    }
+    let gltf = Gltf::from_slice(&all).map_err(broken)?;
     let mut reader = Reader {
         bytes: gltf.blob.as_deref().unwrap_or_default(),
         budget: all.len().saturating_mul(MOST_REPEATED),
