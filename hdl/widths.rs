@@ -21,8 +21,10 @@ pub struct WidthSet {
     pub column_depth: usize,
     /// Sides of maps go up to 2^side_bits texels; a side is a number of one bit more, M.
     pub side_bits: usize,
-    /// The memory of a map's levels has 2^texel_bits words in four banks, that of a summed-area table as many in one.
+    /// The memory of a map's levels has 2^texel_bits words in four banks.
     pub texel_bits: usize,
+    /// The memory of a summed-area table has 2^table_bits sums; four copies of it stand in `sat_fetch_parallel`.
+    pub table_bits: usize,
     /// Bits of a sum in a summed-area table, B.
     pub sum_bits: usize,
     /// The lattice of the bisector has up to 2^K steps a side: maps of up to 2^K + 1 columns and rows.
@@ -42,7 +44,7 @@ impl WidthSet {
     }
     /// Words in the memory of a summed-area table.
     pub const fn table_words(&self) -> usize {
-        1 << self.texel_bits
+        1 << self.table_bits
     }
     /// Bits of an area, twice those of a side.
     pub const fn area_bits(&self) -> usize {
@@ -52,6 +54,14 @@ impl WidthSet {
     pub const fn accumulator_bits(&self) -> usize {
         self.vertex_bits + self.guard_bits + 1
     }
+    /// Whether a set has the same vertices and the same grid: what runs on one gives the same bits on the other.
+    pub const fn has_vertices_of(&self, other: &Self) -> bool {
+        self.components == other.components
+            && self.vertex_bits == other.vertex_bits
+            && self.guard_bits == other.guard_bits
+            && self.coordinate_bits == other.coordinate_bits
+            && self.column_depth == other.column_depth
+    }
     /// Smallest and largest grid coordinate.
     pub const fn coordinates(&self) -> (i32, i32) {
         (-(1 << (self.coordinate_bits - 1)), (1 << (self.coordinate_bits - 1)) - 1)
@@ -59,7 +69,7 @@ impl WidthSet {
 }
 
 macro_rules! width_sets {
-    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal, sides $m:literal, texels $t:literal, B $b:literal, lattice $lattice:literal, E $e:literal;)*) => {
+    ($d:tt; $($name:ident $text:literal $summary:literal: L $l:literal, V $v:literal, g $g:literal, N $n:literal, depth $depth:literal, K $k:literal, sides $m:literal, texels $t:literal, table $table:literal, B $b:literal, lattice $lattice:literal, E $e:literal;)*) => {
         $(
             #[doc = $summary]
             pub mod $name {
@@ -74,6 +84,7 @@ macro_rules! width_sets {
                     column_depth: $depth,
                     side_bits: $m,
                     texel_bits: $t,
+                    table_bits: $table,
                     sum_bits: $b,
                     lattice_bits: $lattice,
                     error_bits: $e,
@@ -89,10 +100,10 @@ macro_rules! width_sets {
                 /// Builder of summed-area tables.
                 pub type SatBuild = crate::sat_build::SatBuild<{ $m + 1 }, $m, $b>;
                 /// Fetch from summed-area tables, four cycles a result.
-                pub type SatFetch = crate::sat_fetch::SatFetch<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $t, $b>;
+                pub type SatFetch = crate::sat_fetch::SatFetch<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $table, $b>;
                 /// Fetch from summed-area tables, one result a cycle.
                 pub type SatFetchParallel =
-                    crate::sat_fetch_parallel::SatFetchParallel<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $t, $b>;
+                    crate::sat_fetch_parallel::SatFetchParallel<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $table, $b>;
                 /// Bisector.
                 pub type Bisector =
                     crate::bisector::Bisector<{ $lattice + 1 }, { $lattice + 2 }, { 2 * $lattice + 1 }, $e>;
@@ -125,13 +136,18 @@ macro_rules! width_sets {
     };
 }
 
+// `default` and `small` fit the 208 block RAMs of an ECP5-85k, block by block; `relief synth` tells. Sums of 32 bits hold any
+// of 2^14 texels, and stand in 32 RAMs of one bit: in the 36 that a DP16KD is wide, they would need multiplexers behind it.
+// Equal numbers are one type, so `large` and `position` cost little to compile.
 width_sets! { $;
     default "default" "Nine components of 32 bits: position, normal, texture coordinates, 1/w; viewports to 4,096":
-        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 19, B 40, lattice 9, E 16;
+        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 9, texels 17, table 14, B 32, lattice 8, E 16;
+    large "large" "The same with larger maps, which need a larger part than an ECP5-85k":
+        L 9, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 19, table 19, B 40, lattice 9, E 16;
     position "position" "Three components: the remesher alone, on geometry":
-        L 3, V 32, g 13, N 14, depth 4096, K 13, sides 10, texels 18, B 40, lattice 9, E 1;
+        L 3, V 32, g 13, N 14, depth 4096, K 13, sides 9, texels 17, table 14, B 32, lattice 8, E 1;
     small "small" "Nine components of 24 bits for 640 x 480":
-        L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, B 32, lattice 8, E 8;
+        L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, table 13, B 32, lattice 8, E 8;
     deep "deep" "Thirteen components, depth ranges to 2^15 voxels":
-        L 13, V 32, g 16, N 17, depth 4096, K 13, sides 12, texels 20, B 40, lattice 12, E 16;
+        L 13, V 32, g 16, N 17, depth 4096, K 13, sides 12, texels 20, table 20, B 40, lattice 12, E 16;
 }

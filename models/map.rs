@@ -37,8 +37,8 @@ pub struct Limit {
 }
 
 impl Limit {
-    /// That of the default width set.
-    pub const DEFAULT: Limit = Limit { side: 2_047, bank_words: 131_072 };
+    /// That of the width set `large`, the last that scenes run on.
+    pub const LARGEST: Limit = Limit { side: 2_047, bank_words: 131_072 };
 
     /// Whether the memory can hold a map of this size with all its levels, and read four texels of it at once.
     ///

@@ -12,7 +12,7 @@
 mod mesh;
 mod prepare;
 
-pub use prepare::{MOST_TRIANGLES, Prepared, prepare};
+pub use prepare::{MOST_TRIANGLES, Prepared, prepare, width_set};
 
 use crate::pipeline::{self, Pipeline, PipelineError, PipelineRecording};
 use mesh::Mesh;
@@ -66,6 +66,8 @@ pub struct Report {
     pub scene: String,
     /// What the hardware ran in: `rust`, or `verilator` behind it.
     pub engine: &'static str,
+    /// Its width set: the smallest whose memory holds every map of the scene.
+    pub width_set: &'static str,
     /// Seconds from the reading of the scene to this report.
     pub seconds: f64,
     /// What was printed as warnings.
@@ -131,7 +133,7 @@ pub fn render(
     let mut out = Rendered {
         frame: Frame::new(width, height),
         edges: Frame::new(width * scale, height * scale),
-        report: Report { version: 2, golden: GOLDEN.to_vec(), ..Report::default() },
+        report: Report { version: 3, golden: GOLDEN.to_vec(), ..Report::default() },
     };
     let total = prepared.objects.iter().map(|object| object.draw.triangles.len() as u64).sum();
     progress.phase("drawing", total);

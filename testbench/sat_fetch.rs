@@ -176,10 +176,10 @@ impl Requests {
             self.fault();
         }
         if self.maps > 3 && self.random.chance(30) {
-            let texel_bits = self.set.texel_bits;
+            let table_bits = self.set.table_bits;
             match self.random.below(3) {
                 // All of the memory, its last word included.
-                0 => self.large(1 << texel_bits.div_ceil(2), 1 << (texel_bits / 2)),
+                0 => self.large(1 << table_bits.div_ceil(2), 1 << (table_bits / 2)),
                 1 => {
                     let most = (1u64 << self.set.side_width()) - 1;
                     self.large(most, (self.set.table_words() as u64 / most).max(1));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `relief run` as a program: what it writes, closed bodies, bad scenes, and the Verilog behind it.
 
-use relief_hdl::widths::WIDTH_SETS;
+use relief_hdl::widths::large;
 use relief_models::mesh::{self, CheckOptions};
 use relief_models::mip_build;
 use relief_models::mip_fetch::{Command, Filter};
@@ -59,6 +59,7 @@ fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
     assert_eq!((picture.width(), picture.height()), (160, 120));
     let report: serde_json::Value = serde_json::from_str(&fs::read_to_string(out.join("report.json"))?)?;
     assert_eq!(report["mismatches"], 0);
+    assert_eq!(report["width_set"], "large");
     assert_eq!((&report["scene"], &report["engine"]), (&path.to_str().into(), &"rust".into()));
     assert_eq!(report["assembled"]["culled"]["left"], 0, "{report}");
     assert_eq!(report["warnings"].as_array().map(Vec::len), Some(0), "{report}");
@@ -241,7 +242,7 @@ fn run_heights_are_those_of_the_file() -> Outcome {
     let texels = (0..344u32).flat_map(|v| (0..403u32).map(move |u| (u << 16, v << 16)));
     let fetches = texels.map(|(u, v)| command_beat(&Command::Fetch { level: 0, u, v, filter: Filter::Bilinear }));
     let beats = load_beats(&pyramid).into_iter().chain(fetches);
-    let mut scoreboard = Scoreboard::new(&MipFetchBinding, &WIDTH_SETS[0], Box::new(beats), Pattern::NONE);
+    let mut scoreboard = Scoreboard::new(&MipFetchBinding, &large::SET, Box::new(beats), Pattern::NONE);
     let value = scoreboard.layout().output("out_value");
     let mut heights = Vec::new();
     let valid = scoreboard.layout().out_valid;

@@ -83,15 +83,15 @@ fn sat_fetch_latency_and_interval_are_its_constants() {
 fn sat_fetch_reads_a_map_that_fills_the_memory() {
     let set = &small::SET;
     let mut random = Random::new(7);
-    let map: Vec<u16> = (0..1 << 16).map(|_| random.bits() as u16).collect();
-    let table = golden(256, 256, &map, set.sum_bits as u32);
+    let map: Vec<u16> = (0..set.table_words()).map(|_| random.bits() as u16).collect();
+    let table = golden(128, 64, &map, set.sum_bits as u32);
     for (unit, border) in UNITS.into_iter().zip([Border::Clamp, Border::Slide]) {
         let mut commands = load_commands(&table, border);
         for _ in 0..10_000 {
-            let corner = (random.below(300) as i64 - 22, random.below(300) as i64 - 22);
-            commands.push(Command::Fetch { corner, size: (random.below(300), random.below(300)) });
+            let corner = (random.below(150) as i64 - 11, random.below(75) as i64 - 6);
+            commands.push(Command::Fetch { corner, size: (random.below(150), random.below(75)) });
         }
-        commands.push(Command::Fetch { corner: (0, 0), size: (256, 256) });
+        commands.push(Command::Fetch { corner: (0, 0), size: (128, 64) });
         let (counts, error, _) = run(unit, set, &commands, Pattern::NONE);
         assert_eq!((counts.checked, error), (10_001, false), "{}", unit.name());
     }
@@ -114,9 +114,9 @@ fn sat_fetch_errors_are_sticky_and_come_with_their_beat() {
         vec![load(4, 1)],
         vec![load(1, 3)],
         vec![load(-1, 1)],
-        // Word 2^16, and a rectangle whose lower entries lie there.
-        vec![size(256, 257), load(1, 257)],
-        vec![size(256, 257), load(1, 1), Command::Fetch { corner: (0, 1), size: (1, 256) }],
+        // Word 2^13, and a rectangle whose lower entries lie there.
+        vec![size(128, 65), load(1, 65)],
+        vec![size(128, 65), load(1, 1), Command::Fetch { corner: (0, 1), size: (1, 64) }],
         vec![size(most, most), Command::Fetch { corner: (500, 500), size: (3, 3) }],
     ];
     for unit in UNITS {
@@ -135,7 +135,7 @@ fn sat_fetch_errors_are_sticky_and_come_with_their_beat() {
 }
 
 /// Words of the inputs and outputs of a tiny unit: sides to 31, 2^8 sums of 20 bits, which 17 texels may wrap.
-const TINY: WidthSet = WidthSet { side_bits: 4, texel_bits: 8, sum_bits: 20, ..small::SET };
+const TINY: WidthSet = WidthSet { side_bits: 4, table_bits: 8, sum_bits: 20, ..small::SET };
 
 /// A cycle: whether the beat was taken, and what came out.
 fn cycle<U: Ports>(unit: &mut Stepped<U>, beat: Option<&Beat>, ready: bool) -> (bool, Option<(u64, u64, bool)>) {

@@ -15,7 +15,7 @@ pub(super) fn resolve(
     folder: &Path,
     warnings: &mut Vec<String>,
 ) -> Result<(HeightMap, String), Error> {
-    let check = |size: [usize; 2]| Limit::DEFAULT.check(size, wrap);
+    let check = |size: [usize; 2]| Limit::LARGEST.check(size, wrap);
     match (&map.file, map.kind) {
         (Some(file), None) => {
             if map.size.is_some() {
@@ -29,7 +29,7 @@ pub(super) fn resolve(
         (None, Some(kind)) => {
             let whose = "the limit of a map's side";
             let size = map.size.map_or([256, 256], |size| size.0);
-            let [width, height] = counts("size", size, [1, 1], Limit::DEFAULT.side as u32, whose)?;
+            let [width, height] = counts("size", size, [1, 1], Limit::LARGEST.side as u32, whose)?;
             let (name, [width, height]) = (kind.name(), [width, height].map(|side| side as usize));
             check([width, height])
                 .map_err(|problem| format!("the map {name} of {width} x {height} samples {problem}"))?;

@@ -179,11 +179,11 @@ fn mip_fetch_taps_have_no_bank_conflict() {
 }
 
 #[test]
-fn mip_fetch_a_pyramid_of_403_x_344_fits_the_default_memory() {
+fn mip_fetch_a_pyramid_of_403_x_344_fits_the_large_memory() {
     let pyramid = golden(403, 344, &vec![0; 403 * 344], Centring::Node, [Wrap::Clamp; 2], Extremum::Max, 10).unwrap();
     let samples: usize = pyramid.levels.iter().map(|level| level.samples.len()).sum();
     assert!((185_000..190_000).contains(&samples), "{samples}");
-    assert!(pyramid.bank_words() <= 1 << 16, "{}", pyramid.bank_words());
+    assert!(pyramid.bank_words() as u64 <= relief_models::map::Limit::LARGEST.bank_words, "{}", pyramid.bank_words());
 }
 
 /// The memory, loaded from a layout, gives what the pyramid gives.

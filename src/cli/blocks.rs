@@ -44,7 +44,10 @@ struct Set {
     column_depth: usize,
     side_bits: usize,
     texel_bits: usize,
+    table_bits: usize,
     sum_bits: usize,
+    lattice_bits: usize,
+    error_bits: usize,
 }
 
 /// Lists.
@@ -66,11 +69,13 @@ pub fn run(arguments: &Arguments) -> Result {
     for set in WIDTH_SETS {
         let WidthSet { name, summary, components, vertex_bits, guard_bits, coordinate_bits, column_depth, .. } = set;
         let bits = set.accumulator_bits();
-        let (side, texels, sum) = (1 << set.side_bits, 1 << set.texel_bits, set.sum_bits);
+        let (side, texels, table, sum) = (1 << set.side_bits, 1 << set.texel_bits, set.table_words(), set.sum_bits);
+        let lattice = (1 << set.lattice_bits) + 1;
         writeln!(
             text,
             "    {name:9} L {components:<2}  V {vertex_bits}  g {guard_bits}  W {bits}  N {coordinate_bits}  column \
-             {column_depth:<4}  maps to {side:<4}  in {texels:<7} texels  sums {sum}  {summary}"
+             {column_depth:<4}  maps to {side:<4}  in {texels:<7} texels  {table:<7} \
+             sums of {sum}  lattice {lattice:<4}  {summary}"
         )?;
     }
     write_all(stdout(), &text)?;
@@ -89,7 +94,10 @@ fn json(block: &dyn Binding) -> Block {
         column_depth: set.column_depth,
         side_bits: set.side_bits,
         texel_bits: set.texel_bits,
+        table_bits: set.table_bits,
         sum_bits: set.sum_bits,
+        lattice_bits: set.lattice_bits,
+        error_bits: set.error_bits,
     };
     Block {
         name: block.name(),

@@ -6,12 +6,11 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use relief_hdl::widths::WIDTH_SETS;
 use relief_models::mesh::Progress;
 use relief_models::scene;
 use relief_testbench::binding::find;
 use relief_testbench::check::{self, emission};
-use relief_testbench::frame::{Report, prepare, render};
+use relief_testbench::frame::{Report, prepare, render, width_set};
 use relief_testbench::output::{MadeFolder, OutputFile, OutputFolder};
 use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
 
@@ -51,7 +50,7 @@ const WAVEFORM: u64 = 400;
 pub fn run(arguments: &Arguments) -> Result {
     let begun = Instant::now();
     let scene = scene::read(&arguments.scene)?;
-    let set = &WIDTH_SETS[0];
+    let set = width_set(&scene);
     let prepared = prepare(&scene, set)?;
     let mut warnings: Vec<String> = scene.warnings.iter().chain(&prepared.warnings).cloned().collect();
     for warning in &warnings {
@@ -110,6 +109,7 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     rendered.report.scene = arguments.scene.display().to_string();
     rendered.report.engine = if engine == Engine::Verilator { "verilator" } else { "rust" };
+    rendered.report.width_set = set.name;
     rendered.report.warnings = warnings;
     rendered.report.seconds = begun.elapsed().as_secs_f64();
     let json = serde_json::to_string_pretty(&rendered.report)? + "\n";
@@ -161,6 +161,7 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
     row("cycles to build levels", counts.build_cycles.to_string());
     row("cycles to load them", counts.load_cycles.to_string());
     row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
+    row("width set", report.width_set.to_owned());
     for block in &report.hardware {
         let behind = match block.followed_cycles {
             0 => String::new(),

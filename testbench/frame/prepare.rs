@@ -3,7 +3,7 @@
 //! may surprise.
 
 use crate::remesher::format;
-use relief_hdl::widths::WidthSet;
+use relief_hdl::widths::{WIDTH_SETS, WidthSet};
 use relief_models::digits::{rounded_up, short};
 use relief_models::draw::{CameraView, Counts, Draw, DrawError, DrawVertex, MapInfo};
 use relief_models::light::Material;
@@ -36,6 +36,24 @@ pub(super) struct PreparedObject<'a> {
     pub(super) draw: Draw,
 }
 
+/// The smallest map memory that holds every map of a scene. Sets of other vertices are no choice: they would change the
+/// picture. Where none is large enough, the largest, whose limits `prepare` then tells.
+pub fn width_set(scene: &Scene) -> &'static WidthSet {
+    let [default, ..] = WIDTH_SETS else { unreachable!("there is a default") };
+    let mut sets: Vec<_> = WIDTH_SETS.iter().filter(|set| set.has_vertices_of(default)).collect();
+    sets.sort_by_key(|set| set.texel_bits);
+    let holds = |set: &WidthSet| {
+        let limit = limit_of(set);
+        scene.objects.iter().all(|object| limit.check([object.map.width, object.map.height], object.wrap).is_ok())
+    };
+    sets.iter().find(|set| holds(set)).or(sets.last()).copied().unwrap_or(default)
+}
+
+/// What the map memory of a set holds.
+fn limit_of(set: &WidthSet) -> Limit {
+    Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 }
+}
+
 /// Prepares a scene for a width set.
 ///
 /// # Errors
@@ -48,8 +66,7 @@ pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, Inp
         let refuse = |problem: String| scene.source.error(Entry::Object(at), problem);
         let name = &object.map_name;
         let (width, height) = (object.map.width, object.map.height);
-        let limit = Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 };
-        limit
+        limit_of(set)
             .check([width, height], object.wrap)
             .map_err(|problem| refuse(format!("the map {name} of {width} x {height} samples {problem}")))?;
         let draw = draw_of(scene, object, &view, set).map_err(|cause| match cause {
@@ -215,16 +232,40 @@ fn remedy(scene: &Scene, set: &WidthSet) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use relief_hdl::widths::WIDTH_SETS;
+    use relief_hdl::widths::{large, small};
     use relief_models::scene::parse;
     use std::path::Path;
 
     /// The scene's reader cannot see the hardware, so it has its limit as a constant.
     #[test]
     fn prepare_and_the_reader_of_scenes_have_one_limit() {
-        let set = &WIDTH_SETS[0];
-        let limit = Limit { side: (1 << set.side_width()) - 1, bank_words: set.bank_words() as u64 };
-        assert_eq!(limit, Limit::DEFAULT);
+        assert_eq!(limit_of(&large::SET), Limit::LARGEST);
+    }
+
+    /// Each map by its side, or by what it takes with its levels, in the smallest set that holds it.
+    #[test]
+    fn prepare_takes_the_smallest_width_set_that_holds_every_map() {
+        let object = SCENE.split_once("[[object]]").unwrap().1;
+        for (sizes, name) in [
+            (vec!["300, 9"], "default"),
+            (vec!["1023, 20"], "default"),
+            (vec!["1024, 20"], "large"),
+            (vec!["312, 312"], "default"),
+            (vec!["313, 313"], "large"),
+            (vec!["9, 9", "403, 344", "9, 9"], "large"),
+        ] {
+            let mut text = SCENE.replace("300, 9", sizes[0]);
+            for size in &sizes[1..] {
+                text += &format!("[[object]]{}", object.replace("300, 9", size));
+            }
+            let scene = parse(&text, "scene.toml", Path::new("")).unwrap();
+            let set = width_set(&scene);
+            assert_eq!(set.name, name, "{sizes:?}");
+            assert!(prepare(&scene, set).is_ok(), "{sizes:?}");
+        }
+        let mut scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
+        scene.objects[0].map = relief_models::map::HeightMap::procedural(relief_models::map::Procedural::Ramp, 2050, 3);
+        assert_eq!(width_set(&scene), &large::SET);
     }
 
     const SCENE: &str = "[camera]\neye = [0, -2.6, 1.7]\n[remesh]\ncell_px = 4\n[[object]]\nmesh = { kind = \"grid\" }\nmap \
@@ -234,7 +275,7 @@ mod tests {
     #[test]
     fn prepare_refuses_what_another_width_set_cannot_hold() {
         let scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
-        let small = relief_hdl::widths::small::SET;
+        let small = small::SET;
         assert!(prepare(&scene, &WIDTH_SETS[0]).is_ok());
         // A side of 9 bits goes to 511.
         assert!(prepare(&scene, &small).is_err_and(|error| !error.to_string().contains("[[object]] 1: the map")));
