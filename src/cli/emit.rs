@@ -4,7 +4,7 @@
 use std::fmt::Write;
 use std::fs;
 use std::io::stdout;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use relief_hdl::widths::WidthSet;
 use relief_models::mesh::Progress;
@@ -16,10 +16,14 @@ use relief_testbench::scoreboard::PATIENCE;
 
 use super::{Meter, Outcome, Result, count, select, write_all};
 
+mod axi_stream;
+mod fusesoc;
+
 /// Write blocks as SystemVerilog, with golden vectors and a self-checking test bench
 ///
-/// Each block gets a folder: its modules, `filelist.f`, the memories, `in.hex` and `out.hex`, and `relief_<block>_tb.sv`,
-/// whose head says how to run it with Icarus and Verilator. The same command writes the same bytes.
+/// Each block gets a folder: its modules, `filelist.f`, the memories, `in.hex` and `out.hex`, `relief_<block>_tb.sv`, whose
+/// head says how to run it with Icarus and Verilator, and `relief_<block>.core` for FuseSoC. The same command writes the
+/// same bytes.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The blocks; all of them when none is named
@@ -37,6 +41,9 @@ pub struct Arguments {
     /// Seed of the golden vectors
     #[arg(long, value_name = "S", default_value_t = 1, value_parser = count, allow_negative_numbers = true)]
     seed: u64,
+    /// Also write `relief_<block>_axis.sv`, the block under the port names of AXI4-Stream, and `filelist_axis.f`
+    #[arg(long)]
+    axi_stream: bool,
 }
 
 /// Emits.
@@ -55,13 +62,20 @@ pub fn run(arguments: &Arguments) -> Result {
         let vectors = Vectors::new(block, set, arguments.vectors, arguments.seed);
         let emission = emission(block, set)?;
         emission.write(folder.path())?;
-        let bench = format!("{}_tb.sv", emission.top);
-        let files = [
-            ("in.hex", vectors.input_text()),
-            ("out.hex", vectors.output_text()),
-            (bench.as_str(), bench_text(set, &emission.top, &vectors, arguments.seed)),
+        let top = &emission.top;
+        let list = fs::read_to_string(folder.path().join("filelist.f"))?;
+        let mut files = vec![
+            ("in.hex".to_owned(), vectors.input_text()),
+            ("out.hex".to_owned(), vectors.output_text()),
+            (format!("{top}_tb.sv"), bench_text(set, top, &vectors, arguments)),
+            (format!("{top}.core"), fusesoc::core(block, set, &list, &roms(folder.path())?, arguments.axi_stream)),
         ];
-        for (name, text) in files {
+        if arguments.axi_stream {
+            let wrapper = axi_stream::wrapper(top, &vectors.in_fields, &vectors.out_fields);
+            files.push((format!("{top}_axis.sv"), wrapper));
+            files.push(("filelist_axis.f".to_owned(), format!("{list}{top}_axis.sv\n")));
+        }
+        for (name, text) in &files {
             let path = folder.path().join(name);
             fs::write(&path, text).map_err(|error| format!("{}: cannot be written: {error}", path.display()))?;
         }
@@ -79,10 +93,25 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     meter.finish();
     // Modules of another width set would stand beside those of this one.
-    let stale = |name: &str| name.starts_with("relief_") && (name.ends_with(".sv") || name.ends_with(".hex"));
+    let stale = |name: &str| {
+        name == "filelist_axis.f" || name.starts_with("relief_") && (name.ends_with(".sv") || name.ends_with(".hex"))
+    };
     folders.into_iter().try_for_each(|folder| folder.commit(stale))?;
     write_all(stdout(), &text)?;
     Ok(Outcome::Agreed)
+}
+
+/// The contents of the memories that a block reads only.
+fn roms(folder: &Path) -> std::io::Result<Vec<String>> {
+    let mut names = Vec::new();
+    for entry in fs::read_dir(folder)? {
+        let name = entry?.file_name().to_string_lossy().into_owned();
+        if name.ends_with(".hex") {
+            names.push(name);
+        }
+    }
+    names.sort();
+    Ok(names)
 }
 
 fn vectors(text: &str) -> std::result::Result<u64, String> {
@@ -175,7 +204,7 @@ module @TOP@_tb;
   reg out_ready = 0;
   wire in_ready;
   wire out_valid;
-  reg [IN_BITS-1:0] in_beat = 0;
+  reg [IN_BITS-1:0] in_beat = {IN_BITS{1'bx}};
   wire [OUT_BITS-1:0] out_beat;
   reg [IN_BITS-1:0] in_beats [0:IN_BEATS-1];
   reg [2*OUT_DIGITS-1:0] out_beats [0:(OUT_BEATS > 0 ? OUT_BEATS - 1 : 0)];
@@ -187,9 +216,7 @@ module @TOP@_tb;
   reg taken;
   integer idle, stall, accepted, checked, cycles, silent, drain, failed;
 
-  @TOP@ dut (
-@CONNECT@
-  );
+@DUT@
 
   initial begin
     $readmemh("in.hex", in_beats);
@@ -204,10 +231,9 @@ module @TOP@_tb;
     silent = 0;
     drain = 0;
     failed = 0;
-    repeat (2) begin
-      #5 clock = 1;
-      #5 clock = 0;
-    end
+    // One cycle is enough, from whatever the registers hold: unknown bits, in Icarus.
+    #5 clock = 1;
+    #5 clock = 0;
     reset = 0;
     // Inputs change while the clock is low; outputs are sampled just before it rises.
     while (failed == 0 && drain < DRAIN) begin
@@ -231,8 +257,8 @@ module @TOP@_tb;
           line = out_beats[checked];
           mask = line[OUT_DIGITS +: OUT_BITS];
           value = line[0 +: OUT_BITS];
-          // An unknown bit that counts is a mismatch.
-          if ((out_beat & mask) !== value) begin
+          // So is an unknown bit, even one that does not count.
+          if ((out_beat & mask) !== value || ^out_beat === 1'bx) begin
             failed = 1;
             $display("beat %0d, cycle %0d:\n  expected %h\n  got      %h\n  mask     %h", checked, cycles - 1, value,
                      out_beat, mask);
@@ -242,7 +268,8 @@ module @TOP@_tb;
         failed = 1;
         $display("cycle %0d: out_valid is unknown", cycles - 1);
       end
-      if (in_ready !== 1'b0 && in_ready !== 1'b1) begin
+      // It may follow from the payload, which means nothing before there is a beat.
+      if (in_valid && in_ready !== 1'b0 && in_ready !== 1'b1) begin
         failed = 1;
         $display("cycle %0d: in_ready is unknown", cycles - 1);
       end
@@ -260,6 +287,8 @@ module @TOP@_tb;
         silent = 0;
         accepted = accepted + 1;
         in_valid = 0;
+        // Whoever looks at it now is found out.
+        in_beat = {IN_BITS{1'bx}};
       end
     end
     if (failed == 0) begin
@@ -276,7 +305,8 @@ endmodule
 "#;
 
 /// The test bench in plain Verilog but for `$urandom` and `$fatal`.
-fn bench_text(set: &WidthSet, top: &str, vectors: &Vectors, seed: u64) -> String {
+fn bench_text(set: &WidthSet, top: &str, vectors: &Vectors, arguments: &Arguments) -> String {
+    let seed = arguments.seed;
     let list = |fields: &[(&str, usize)]| {
         fields.iter().map(|(name, bits)| format!("{name}:{bits}")).collect::<Vec<_>>().join(" ")
     };
@@ -290,6 +320,13 @@ fn bench_text(set: &WidthSet, top: &str, vectors: &Vectors, seed: u64) -> String
             let _ = write!(connect, ",\n    .{name}({wire}[{from} +: {bits}])");
             from += bits;
         }
+    }
+    let mut dut = format!("  {top} dut (\n{connect}\n  );");
+    if arguments.axi_stream {
+        let axis = axi_stream::instance(top, &vectors.in_fields, &vectors.out_fields);
+        dut = format!(
+            "`ifdef RELIEF_AXIS // the block behind {top}_axis.sv, with filelist_axis.f\n{axis}\n`else\n{dut}\n`endif"
+        );
     }
     let out_bits = width(&vectors.out_fields);
     [
@@ -305,7 +342,7 @@ fn bench_text(set: &WidthSet, top: &str, vectors: &Vectors, seed: u64) -> String
         ("OUT_BITS", out_bits.to_string()),
         ("OUT_DIGITS", (out_bits.div_ceil(4) * 4).to_string()),
         ("PATIENCE", PATIENCE.to_string()),
-        ("CONNECT", connect),
+        ("DUT", dut),
     ]
     .into_iter()
     .fold(BENCH.to_string(), |text, (name, value)| text.replace(&format!("@{name}@"), &value))
