@@ -8,11 +8,13 @@ mod divider;
 mod memory;
 mod multiplier;
 mod register;
+mod registered_ram;
 
 pub use divider::Divider;
 pub use memory::{Ram, Rom};
 pub use multiplier::Multiplier;
 pub use register::{DataRegister, Register};
+pub use registered_ram::RegisteredRam;
 
 /// First line of the text of a [`Verilog::Custom`](rust_hdl_core::ast::Verilog) that is pasted into its parent.
 pub const INLINE: &str = "//inline\n";

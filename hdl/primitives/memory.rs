@@ -217,7 +217,7 @@ impl<T: Synth, const A: usize> Block for Rom<T, A> {
 
 /// The part of an address of `A` bits that reaches the words `0 ..= last`, and a line that takes note of the other bits,
 /// which a counter needs that counts up to the depth. Empty where the address is no wider than it must be.
-fn address<const A: usize>(last: usize, ports: &[&str]) -> (String, String) {
+pub(super) fn address<const A: usize>(last: usize, ports: &[&str]) -> (String, String) {
     let needed = (usize::BITS - last.leading_zeros()).max(1) as usize;
     if needed == A {
         return (String::new(), String::new());

@@ -97,6 +97,45 @@ proptest! {
     }
 }
 
+/// Steps a registered RAM of 5 words beside a list of words. A word that is written while it is read means nothing.
+fn registered_ram_follows<const LATE: bool>(steps: &[[i64; 6]]) -> Result<(), TestCaseError> {
+    let mut ram = RegisteredRam::<S<20>, 3, LATE>::new(5);
+    let mut words = [S::<20>::default(); 5];
+    let (mut late, mut word, mut held) = (None, Some(words[0]), Some(words[0]));
+    for &[write, at, value, read, enable, output_enable] in steps {
+        (ram.write_enable.next, ram.enable.next, ram.output_enable.next) =
+            (write == 1, enable == 1, output_enable == 1);
+        (ram.write_address.next, ram.read_address.next) = (U::new(at), U::new(read));
+        ram.write_data.next = S::new(value);
+        ram.latch(false);
+        let asked = (write == 1).then_some((at, S::new(value)));
+        let written = if LATE { std::mem::replace(&mut late, asked) } else { asked };
+        if output_enable == 1 {
+            held = word;
+        }
+        if enable == 1 {
+            word = written.is_none_or(|(at, _)| at != read).then_some(words[read as usize]);
+        }
+        if let Some((at, value)) = written {
+            words[at as usize] = value;
+        }
+        if let Some(held) = held {
+            prop_assert_eq!(ram.read_data.val(), held);
+        }
+    }
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn registered_ram_reads_two_cycles_later_and_holds(
+        steps in prop::collection::vec([0i64..2, 0i64..5, -500_000i64..500_000, 0i64..5, 0i64..2, 0i64..2], 1..200),
+    ) {
+        registered_ram_follows::<false>(&steps)?;
+        registered_ram_follows::<true>(&steps)?;
+    }
+}
+
 #[test]
 fn multiplier_takes_the_minimum_of_both_formats() {
     let mut multiplier = Multiplier::<4, 4, 8>::default();
