@@ -7,6 +7,7 @@
 //! | [`programs`] | finds Yosys and nextpnr, and says how to install them                    |
 //! | [`harness`]  | a module round a block that needs four pins                              |
 //! | [`yosys`]    | from Verilog to a netlist of the part's cells, and their counts          |
+//! | [`pack`]     | registers behind block RAM that belong into it                           |
 //! | [`nextpnr`]  | places and routes, and reads the report                                  |
 //! | [`path`]     | the critical path in the names of the emitted Verilog                    |
 //! | [`measure`]  | all of it for one block, width set and part                              |
@@ -16,6 +17,7 @@ pub mod figures;
 pub mod harness;
 pub mod measure;
 pub mod nextpnr;
+pub mod pack;
 pub mod path;
 pub mod programs;
 pub mod target;

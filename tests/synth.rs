@@ -8,6 +8,7 @@ use std::process::Command;
 
 use relief::synth::figures::{FIGURES, Figures, between_marks};
 use relief::synth::measure::{Bench, Row, Tools, cycles};
+use relief::synth::pack::output_registers;
 use relief::synth::target::{self, TARGETS};
 use relief::synth::yosys::{self, Counts, NETLIST};
 use relief::synth::{harness, nextpnr, path, programs};
@@ -17,6 +18,8 @@ use relief_testbench::check::emission;
 use relief_testbench::cosim::{Cycles, Design, Port, Verilator};
 use relief_testbench::cosim::{count_cells, iverilog_accepts, tools, verilator_lint};
 use relief_testbench::device::Stage;
+
+use serde_json::{Value, json};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -128,6 +131,58 @@ fn synth_counts_what_cells_take() -> Outcome {
     assert_eq!((counts, counts.excess(target::find("xc7")?)), (Counts([13, 3, 5, 4]), None));
     let kinds = [("LUT2", 5), ("ALU", 2), ("DFFRE", 3), ("SDPB", 2), ("MULT18X18", 4), ("IBUF", 1), ("MUX2_LUT5", 8)];
     assert_eq!(Counts::of(&cells(&kinds), target::find("gowin")?), Counts([7, 3, 2, 4]));
+    Ok(())
+}
+
+/// A block RAM of two bits, each in a register; then one bit that is read elsewhere, too, or a register that differs.
+#[test]
+fn synth_packs_registers_behind_block_ram() -> Outcome {
+    let register = |d: u64, q: u64, enable: u64| {
+        json!({
+            "type": "TRELLIS_FF", "parameters": {"CEMUX": "CE", "CLKMUX": "CLK"},
+            "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "LSR": "input", "Q": "output"},
+            "connections": {"CLK": [2], "CE": [enable], "DI": [d], "LSR": ["0"], "Q": [q]},
+        })
+    };
+    let ram = json!({
+        "type": "DP16KD",
+        "parameters": {"REGMODE_A": "NOREG", "REGMODE_B": "NOREG", "CLKAMUX": "CLKA", "CLKBMUX": "CLKB", "DATA_WIDTH_B": "00010"},
+        "port_directions": {"CLKA": "input", "CLKB": "input", "RSTA": "input", "RSTB": "input", "OCEB": "input", "DOB0": "output", "DOB1": "output"},
+        "connections": {"CLKA": [2], "CLKB": [2], "RSTA": ["0"], "RSTB": ["0"], "OCEB": ["1"], "DOB0": [10], "DOB1": [11]},
+    });
+    let netlist = |second: Value, outputs: Value| {
+        json!({"modules": {"top": {
+            "ports": {"clock": {"direction": "input", "bits": [2]}, "out": {"direction": "output", "bits": outputs}},
+            "cells": {"ram": ram.clone(), "first": register(10, 20, 3), "second": second},
+        }}})
+    };
+    let mut packed = netlist(register(11, 21, 3), json!([20, 21]));
+    assert_eq!(output_registers(&mut packed, "top"), Ok(2));
+    let cells = &packed["modules"]["top"]["cells"];
+    assert_eq!(cells.as_object().map(|cells| cells.len()), Some(1));
+    let connections = &cells["ram"]["connections"];
+    assert_eq!(
+        [&connections["DOB0"], &connections["DOB1"], &connections["OCEB"]],
+        [&json!([20]), &json!([21]), &json!([3])]
+    );
+    assert_eq!(cells["ram"]["parameters"]["REGMODE_B"], "OUTREG");
+    assert_eq!(output_registers(&mut packed, "top"), Ok(0), "it is done once");
+    let mut other_clock = register(11, 21, 3);
+    other_clock["connections"]["CLK"] = json!([4]);
+    let mut reset = register(11, 21, 3);
+    reset["connections"]["LSR"] = json!([5]);
+    for (second, outputs) in [
+        (register(11, 21, 3), json!([20, 21, 11])),
+        (register(11, 21, 4), json!([20, 21])),
+        (other_clock, json!([20, 21])),
+        (reset, json!([20, 21])),
+    ] {
+        let before = netlist(second, outputs);
+        let mut after = before.clone();
+        assert_eq!(output_registers(&mut after, "top"), Ok(0));
+        assert_eq!(after, before);
+    }
+    assert!(output_registers(&mut json!({}), "top").is_err());
     Ok(())
 }
 

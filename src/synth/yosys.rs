@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use relief_testbench::cosim::{count_cells, program};
 
+use super::pack::output_registers;
 use super::programs::Program;
 use super::target::{Resource, Target};
 
@@ -62,6 +63,7 @@ pub fn map(yosys: &Program, folder: &Path, sources: &[String], top: &str, target
         "read_verilog -sv {sources}; {pass} {inner} -top {top}; write_json {COUNTED}; select {top}; write_rtlil -selected {BLOCK}"
     );
     run(yosys, folder, &script, &format!("synthesizing `{top}` for {} with Yosys", target.name))?;
+    pack(folder, COUNTED, top)?;
     let netlist = fs::read(folder.join(COUNTED)).map_err(|error| format!("the netlist of `{top}`: {error}"))?;
     let cells = count_cells(&netlist, top).map_err(|reason| format!("the netlist of `{top}`: {reason}"))?;
     Ok(Counts::of(&cells, target))
@@ -84,7 +86,21 @@ pub fn link(
         "read_verilog -sv {harness}.sv; read_verilog -sv -lib {sources}; {pass} -top {harness}; delete ={top}; \
          read_rtlil {BLOCK}; hierarchy -top {harness}; flatten; clean; write_json {NETLIST}"
     );
-    run(yosys, folder, &script, &format!("synthesizing `{harness}` for {} with Yosys", target.name))
+    run(yosys, folder, &script, &format!("synthesizing `{harness}` for {} with Yosys", target.name))?;
+    // The same registers as in the block alone: neither they nor what they read are of the harness.
+    pack(folder, NETLIST, harness)
+}
+
+/// Packs the registers of the netlist `file`.
+fn pack(folder: &Path, file: &str, top: &str) -> Result<(), String> {
+    let path = folder.join(file);
+    let fail = |reason: String| format!("the netlist of `{top}`: {reason}");
+    let bytes = fs::read(&path).map_err(|error| fail(error.to_string()))?;
+    let mut netlist = serde_json::from_slice(&bytes).map_err(|error| fail(error.to_string()))?;
+    if output_registers(&mut netlist, top).map_err(fail)? > 0 {
+        fs::write(&path, netlist.to_string()).map_err(|error| fail(error.to_string()))?;
+    }
+    Ok(())
 }
 
 /// Names in a script are relative: the tools of PyPI see other folders than ours behind some absolute ones.
