@@ -133,10 +133,10 @@ impl Binding for StripUnitBinding {
         "decodes the step port into triangles, with the column memory"
     }
     fn latency(&self) -> &'static str {
-        "1"
+        "2"
     }
     fn interval(&self) -> &'static str {
-        "1 (2 for a recall right behind the store it recalls)"
+        "1"
     }
     fn error(&self) -> &'static str {
         "0"

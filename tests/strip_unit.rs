@@ -139,6 +139,40 @@ fn strip_unit_store_into_a_full_memory_is_an_error() {
     }
 }
 
+/// Long and short columns, recalls right behind the stores that they recall, both at once, and a memory run full: the unit
+/// never waits by itself.
+#[test]
+fn strip_unit_takes_a_step_a_cycle() {
+    use {Kind::*, LeftCommand as L, RightCommand as R};
+    let set = &small::SET;
+    let mut random = Random::new(8);
+    let mut steps = Vec::new();
+    for depth in [1, 2, 3, 13, 14, 15, 16, 17, 18, 30, 512] {
+        steps.push(step(set, Start, L::Set, R::Set, 10));
+        steps.push(step(set, Step, L::Ref, R::Edge, 12));
+        steps.extend((0..depth).map(|k| step(set, Step, L::Ref, R::Store, 20 + 2 * k)));
+        // As many again, each behind the recall that makes room, or with it.
+        let mut stored = depth;
+        for k in 0..2 * depth {
+            let both = stored < 512 && random.chance(50);
+            steps.push(step(set, Step, L::Recall, if both { R::Store } else { R::Set }, 5000 + 2 * k));
+            if !both {
+                steps.push(step(set, Step, L::Ref, R::Store, 9000 + 2 * k));
+            }
+            stored = depth;
+        }
+        steps.extend((0..depth).map(|k| step(set, Step, L::Recall, R::Ref, 20_000 + 2 * k)));
+    }
+    let beats = steps.len() as u64;
+    let source = Box::new(steps.iter().map(|step| words_of(set, step)));
+    let mut scoreboard = Scoreboard::new(&StripUnitBinding, set, source, Pattern::NONE);
+    let counts =
+        scoreboard.run(Until::Exhausted, &mut |_, _, _| Ok(())).unwrap_or_else(|mismatch| panic!("{mismatch}"));
+    assert_eq!(counts.accepted, beats);
+    assert!(counts.checked > beats / 3, "{counts:?}");
+    assert_eq!(counts.cycles, beats + small::StripUnit::LATENCY as u64);
+}
+
 /// Four-bit counters and two places.
 type Tiny = Hardware<3, 32, 4>;
 
