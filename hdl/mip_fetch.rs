@@ -7,7 +7,7 @@
 //! nearest: a and b rounded to 0 or 1                            word base[L] + (j >> 1) * pitch[L] + (i >> 1)
 //! ```
 //!
-//! | port       | format      | meaning |   Latency 12, interval 1
+//! | port       | format      | meaning |   Latency 20, interval 1
 //! | in_kind    | 2 bits      | 0 size of a level, 1 load of a sample, 2 fetch   Golden: models::mip_fetch::MipFetch
 //! | in_level   | 4 bits      | levels are sized in order; a fetch beyond the last one reads the last one
 //! | in_u, in_v | UQ13.16     | texels of level 0 | fetch   Error 1/2 unit of UQ16.8
@@ -36,7 +36,7 @@ pub use level_table::LevelTable;
 use crate::prelude::*;
 
 /// Fetch from levels with sides below 2^M, M <= 13, in four banks of 2^A texels, A <= 27.
-#[derive(Clone, Debug, Default, LogicBlock)]
+#[derive(Clone, Debug, LogicBlock)]
 #[allow(missing_docs)]
 pub struct MipFetch<const M: usize, const A: usize> {
     pub clock: Input<ClockReset>,
@@ -67,164 +67,329 @@ pub struct MipFetch<const M: usize, const A: usize> {
     axis_v: MipAxis<M>,
     banks: MipBanks<M, A>,
     bilinear: Bilinear,
-    // s1: coordinates at their level, and the level's record.
+    // s1_input: the beat; a sample to be loaded stands where the coordinates do.
+    s1_sizes: Register<Bit>,
+    s1_loads: Register<Bit>,
+    s1_fetches: Register<Bit>,
+    s1_level: DataRegister<U<4>>,
     s1_u: DataRegister<U<29>>,
     s1_v: DataRegister<U<29>>,
-    s1_i: DataRegister<U<M>>,
-    s1_j: DataRegister<U<M>>,
-    s1_load: Register<Bit>,
     s1_nearest: DataRegister<Bit>,
     s1_value: DataRegister<U<16>>,
-    s1_blank: DataRegister<Bit>,
-    // s2: the axes, and what the banks want of the record.
-    s2_base: DataRegister<U<A>>,
-    s2_pitch: DataRegister<U<M>>,
+    s1_width: DataRegister<U<M>>,
+    s1_height: DataRegister<U<M>>,
+    s1_base: DataRegister<U<A>>,
+    s1_pitch: DataRegister<U<M>>,
+    s1_repeat_u: DataRegister<Bit>,
+    s1_repeat_v: DataRegister<Bit>,
+    /// The size can be used.
+    s1_sound: DataRegister<Bit>,
+    // s2_level: the level that is read, and what is refused.
+    s2_sends: Register<Bit>,
     s2_load: Register<Bit>,
+    s2_fails: Register<Bit>,
+    s2_level: DataRegister<U<4>>,
+    s2_shift: DataRegister<U<4>>,
+    s2_u: DataRegister<U<29>>,
+    s2_v: DataRegister<U<29>>,
+    s2_nearest: DataRegister<Bit>,
     s2_value: DataRegister<U<16>>,
     s2_blank: DataRegister<Bit>,
-    // s3 to s6: the banks. Weights a and b travel along.
-    s3_weights: DataRegister<Lanes<2, 14>>,
-    s4_weights: DataRegister<Lanes<2, 14>>,
-    s5_weights: DataRegister<Lanes<2, 14>>,
-    s6_weights: DataRegister<Lanes<2, 14>>,
-    // A fetch, and an error, at each stage. A load counts where the memory's end matters.
-    s1_sends: Register<Bit>,
-    s2_sends: Register<Bit>,
-    s3_sends: Register<Bit>,
-    s4_sends: Register<Bit>,
-    s5_sends: Register<Bit>,
-    s6_sends: Register<Bit>,
-    s7_sends: Register<Bit>,
-    s8_sends: Register<Bit>,
-    s9_sends: Register<Bit>,
-    s10_sends: Register<Bit>,
-    s11_sends: Register<Bit>,
-    s12_sends: Register<Bit>,
-    s1_fails: Register<Bit>,
-    s2_fails: Register<Bit>,
-    s3_fails: Register<Bit>,
-    s4_fails: Register<Bit>,
-    s5_fails: Register<Bit>,
-    s6_fails: Register<Bit>,
-    s7_fails: Register<Bit>,
-    s8_fails: Register<Bit>,
-    s9_fails: Register<Bit>,
-    s10_fails: Register<Bit>,
-    s11_fails: Register<Bit>,
-    s3_load: Register<Bit>,
-    s4_load: Register<Bit>,
+    // s3_shift: coordinates at their level, and the level's record.
+    s3_u: DataRegister<U<29>>,
+    s3_v: DataRegister<U<29>>,
+    s3_nearest: DataRegister<Bit>,
+    s3_value: DataRegister<U<16>>,
+    s3_blank: DataRegister<Bit>,
+    // s4_compare to s6_sort: the axes. What the banks want travels along.
+    s4_base: DataRegister<U<A>>,
+    s4_pitch: DataRegister<U<M>>,
+    s4_value: DataRegister<U<16>>,
+    s4_blank: DataRegister<Bit>,
+    s5_base: DataRegister<U<A>>,
+    s5_pitch: DataRegister<U<M>>,
+    s5_value: DataRegister<U<16>>,
+    s5_blank: DataRegister<Bit>,
+    s6_base: DataRegister<U<A>>,
+    s6_pitch: DataRegister<U<M>>,
+    s6_value: DataRegister<U<16>>,
+    s6_blank: DataRegister<Bit>,
+    // s7_product to s12_texel: the banks. Weights a and b travel along.
+    s7_weights: DataRegister<Lanes<2, 14>>,
+    s8_weights: DataRegister<Lanes<2, 14>>,
+    s9_weights: DataRegister<Lanes<2, 14>>,
+    s10_weights: DataRegister<Lanes<2, 14>>,
+    s11_weights: DataRegister<Lanes<2, 14>>,
+    s12_weights: DataRegister<Lanes<2, 14>>,
+    /// Loads at s3 to s8, from the lowest bit.
+    loading: Register<U<6>>,
+    /// Fetches at s3 to s19.
+    sending: Register<U<17>>,
+    /// Errors at s3 to s18.
+    failing: Register<U<16>>,
     failed: Register<Bit>,
+    /// The pipeline moves in this cycle: what leaves it finds room. A register, as everything waits for it.
+    moves: Register<Bit>,
+    // s20: the value that is sent, and the next one where it waits, each with the errors up to it.
+    sent_valid: Register<Bit>,
+    sent_value: DataRegister<U<24>>,
+    sent_failed: Register<Bit>,
+    spare_valid: Register<Bit>,
+    spare_value: DataRegister<U<24>>,
+    spare_failed: DataRegister<Bit>,
     go: Wire<Bit>,
-    beat: Wire<Bit>,
-    fetches: Wire<Bit>,
-    loads: Wire<Bit>,
-    sizes: Wire<Bit>,
+    arrives: Wire<Bit>,
+    out_free: Wire<Bit>,
+    spare_behind: Wire<Bit>,
     known: Wire<Bit>,
-    sound: Wire<Bit>,
     in_order: Wire<Bit>,
     level: Wire<U<4>>,
-    half_width: Wire<U<M>>,
     outside: Wire<Bit>,
+    beyond: Wire<Bit>,
+    failing_behind: Wire<U<16>>,
     weights_u: Wire<Lanes<2, 14>>,
-    s2_weights: Wire<Lanes<2, 14>>,
+    s6_weights: Wire<Lanes<2, 14>>,
+}
+
+impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
+    fn default() -> Self {
+        Self {
+            clock: Input::default(),
+            in_valid: Input::default(),
+            in_ready: Output::default(),
+            in_kind: Input::default(),
+            in_level: Input::default(),
+            in_u: Input::default(),
+            in_v: Input::default(),
+            in_bilinear: Input::default(),
+            in_i: Input::default(),
+            in_j: Input::default(),
+            in_value: Input::default(),
+            in_width: Input::default(),
+            in_height: Input::default(),
+            in_base: Input::default(),
+            in_pitch: Input::default(),
+            in_repeat_u: Input::default(),
+            in_repeat_v: Input::default(),
+            out_valid: Output::default(),
+            out_ready: Input::default(),
+            out_value: Output::default(),
+            error: Output::default(),
+            count: Register::default(),
+            levels: LevelTable::default(),
+            axis_u: MipAxis::default(),
+            axis_v: MipAxis::default(),
+            banks: MipBanks::default(),
+            bilinear: Bilinear::default(),
+            s1_sizes: Register::default(),
+            s1_loads: Register::default(),
+            s1_fetches: Register::default(),
+            s1_level: DataRegister::default(),
+            s1_u: DataRegister::default(),
+            s1_v: DataRegister::default(),
+            s1_nearest: DataRegister::default(),
+            s1_value: DataRegister::default(),
+            s1_width: DataRegister::default(),
+            s1_height: DataRegister::default(),
+            s1_base: DataRegister::default(),
+            s1_pitch: DataRegister::default(),
+            s1_repeat_u: DataRegister::default(),
+            s1_repeat_v: DataRegister::default(),
+            s1_sound: DataRegister::default(),
+            s2_sends: Register::default(),
+            s2_load: Register::default(),
+            s2_fails: Register::default(),
+            s2_level: DataRegister::default(),
+            s2_shift: DataRegister::default(),
+            s2_u: DataRegister::default(),
+            s2_v: DataRegister::default(),
+            s2_nearest: DataRegister::default(),
+            s2_value: DataRegister::default(),
+            s2_blank: DataRegister::default(),
+            s3_u: DataRegister::default(),
+            s3_v: DataRegister::default(),
+            s3_nearest: DataRegister::default(),
+            s3_value: DataRegister::default(),
+            s3_blank: DataRegister::default(),
+            s4_base: DataRegister::default(),
+            s4_pitch: DataRegister::default(),
+            s4_value: DataRegister::default(),
+            s4_blank: DataRegister::default(),
+            s5_base: DataRegister::default(),
+            s5_pitch: DataRegister::default(),
+            s5_value: DataRegister::default(),
+            s5_blank: DataRegister::default(),
+            s6_base: DataRegister::default(),
+            s6_pitch: DataRegister::default(),
+            s6_value: DataRegister::default(),
+            s6_blank: DataRegister::default(),
+            s7_weights: DataRegister::default(),
+            s8_weights: DataRegister::default(),
+            s9_weights: DataRegister::default(),
+            s10_weights: DataRegister::default(),
+            s11_weights: DataRegister::default(),
+            s12_weights: DataRegister::default(),
+            loading: Register::default(),
+            sending: Register::default(),
+            failing: Register::default(),
+            failed: Register::default(),
+            moves: Register::new(true),
+            sent_valid: Register::default(),
+            sent_value: DataRegister::default(),
+            sent_failed: Register::default(),
+            spare_valid: Register::default(),
+            spare_value: DataRegister::default(),
+            spare_failed: DataRegister::default(),
+            go: Wire::default(),
+            arrives: Wire::default(),
+            out_free: Wire::default(),
+            spare_behind: Wire::default(),
+            known: Wire::default(),
+            in_order: Wire::default(),
+            level: Wire::default(),
+            outside: Wire::default(),
+            beyond: Wire::default(),
+            failing_behind: Wire::default(),
+            weights_u: Wire::default(),
+            s6_weights: Wire::default(),
+        }
+    }
 }
 
 impl<const M: usize, const A: usize> MipFetch<M, A> {
     /// Cycles from a fetch to its value.
-    pub const LATENCY: usize = 12;
+    pub const LATENCY: usize = 20;
 }
 
 impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, levels, axis_u, axis_v, banks, bilinear);
-        dff_setup!(self, clock, count, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_blank);
-        dff_setup!(self, clock, s2_base, s2_pitch, s2_load, s2_value, s2_blank);
-        dff_setup!(self, clock, s3_weights, s4_weights, s5_weights, s6_weights, s3_load, s4_load, failed);
-        dff_setup!(self, clock, s1_sends, s2_sends, s3_sends, s4_sends, s5_sends, s6_sends);
-        dff_setup!(self, clock, s7_sends, s8_sends, s9_sends, s10_sends, s11_sends, s12_sends);
-        dff_setup!(self, clock, s1_fails, s2_fails, s3_fails, s4_fails, s5_fails, s6_fails);
-        dff_setup!(self, clock, s7_fails, s8_fails, s9_fails, s10_fails, s11_fails);
+        dff_setup!(self, clock, count, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest);
+        dff_setup!(self, clock, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound);
+        dff_setup!(self, clock, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest);
+        dff_setup!(self, clock, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_value, s3_blank, s4_base);
+        dff_setup!(self, clock, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base);
+        dff_setup!(
+            self,
+            clock,
+            s6_pitch,
+            s6_value,
+            s6_blank,
+            s7_weights,
+            s8_weights,
+            s9_weights,
+            s10_weights,
+            s11_weights
+        );
+        dff_setup!(self, clock, loading, sending, failing, failed, s12_weights, moves, sent_valid, sent_value);
+        dff_setup!(self, clock, sent_failed, spare_valid, spare_value, spare_failed);
 
         // The whole pipeline moves, or stands.
-        self.go.next = !self.s12_sends.q.val() || self.out_ready.val();
+        self.go.next = self.moves.q.val();
         self.in_ready.next = self.go.val();
-        self.out_valid.next = self.s12_sends.q.val();
-        self.out_value.next = self.bilinear.value.val();
-        self.error.next = self.failed.q.val();
+        self.out_valid.next = self.sent_valid.q.val();
+        self.out_value.next = self.sent_value.q.val();
+        self.error.next = self.sent_failed.q.val();
         self.levels.go.next = self.go.val();
         self.axis_u.go.next = self.go.val();
         self.axis_v.go.next = self.go.val();
         self.banks.go.next = self.go.val();
         self.bilinear.go.next = self.go.val();
 
-        // s1_level
-        self.beat.next = self.go.val() && self.in_valid.val();
-        self.sizes.next = self.beat.val() && self.in_kind.val() == 0;
-        self.loads.next = self.beat.val() && self.in_kind.val() == 1;
-        self.fetches.next = self.beat.val() && self.in_kind.val() >= 2;
-        self.known.next = self.in_level.val() < self.count.q.val();
-        self.level.next = self.in_level.val();
-        if self.fetches.val() && !self.known.val() {
-            self.level.next = self.count.q.val() - 1;
-        }
-        self.half_width.next = (self.in_width.val() >> 1) + bit_cast_to::<U<M>>(self.in_width.val().get_bit(0));
-        self.sound.next = self.in_width.val() != 0
-            && self.in_height.val() != 0
-            && self.in_pitch.val() >= self.half_width.val()
-            && !(self.in_repeat_u.val() && self.in_width.val().get_bit(0))
-            && !(self.in_repeat_v.val() && self.in_height.val().get_bit(0));
-        self.in_order.next = self.in_level.val() <= self.count.q.val() && self.in_level.val() != 15;
-        self.levels.write.next = self.sizes.val() && self.in_order.val() && self.sound.val();
-        self.levels.level.next = self.level.val();
-        self.levels.in_width.next = self.in_width.val();
-        self.levels.in_height.next = self.in_height.val();
-        self.levels.in_base.next = self.in_base.val();
-        self.levels.in_pitch.next = self.in_pitch.val();
-        self.levels.in_repeat_u.next = self.in_repeat_u.val();
-        self.levels.in_repeat_v.next = self.in_repeat_v.val();
-        if self.sizes.val() && self.in_order.val() {
-            self.count.d.next = self.in_level.val();
-            if self.sound.val() {
-                self.count.d.next = self.in_level.val() + 1;
-            }
-        }
+        // s1_input
         if self.go.val() {
-            self.s1_sends.d.next = self.fetches.val();
-            self.s1_load.d.next = self.loads.val() && self.known.val();
-            self.s1_fails.d.next = (self.sizes.val() && !(self.in_order.val() && self.sound.val()))
-                || (self.loads.val() && !self.known.val())
-                || (self.fetches.val() && self.count.q.val() == 0);
-            self.s1_blank.d.next = self.count.q.val() == 0;
-            self.s1_u.d.next = self.in_u.val() >> self.level.val();
-            self.s1_v.d.next = self.in_v.val() >> self.level.val();
-            self.s1_i.d.next = self.in_i.val();
-            self.s1_j.d.next = self.in_j.val();
+            self.s1_sizes.d.next = self.in_valid.val() && self.in_kind.val() == 0;
+            self.s1_loads.d.next = self.in_valid.val() && self.in_kind.val() == 1;
+            self.s1_fetches.d.next = self.in_valid.val() && self.in_kind.val() >= 2;
+            self.s1_level.d.next = self.in_level.val();
+            self.s1_u.d.next = self.in_u.val();
+            self.s1_v.d.next = self.in_v.val();
+            if self.in_kind.val() == 1 {
+                self.s1_u.d.next = bit_cast_to::<U<29>>(self.in_i.val()) << 16;
+                self.s1_v.d.next = bit_cast_to::<U<29>>(self.in_j.val()) << 16;
+            }
             self.s1_nearest.d.next = !self.in_bilinear.val();
             self.s1_value.d.next = self.in_value.val();
+            self.s1_width.d.next = self.in_width.val();
+            self.s1_height.d.next = self.in_height.val();
+            self.s1_base.d.next = self.in_base.val();
+            self.s1_pitch.d.next = self.in_pitch.val();
+            self.s1_repeat_u.d.next = self.in_repeat_u.val();
+            self.s1_repeat_v.d.next = self.in_repeat_v.val();
+            // 14 bits: a pitch has 13 at most.
+            self.s1_sound.d.next = self.in_width.val() != 0
+                && self.in_height.val() != 0
+                && (bit_cast_to::<U<14>>(self.in_pitch.val()) << 1) >= bit_cast_to::<U<14>>(self.in_width.val())
+                && !(self.in_repeat_u.val() && self.in_width.val().get_bit(0))
+                && !(self.in_repeat_v.val() && self.in_height.val().get_bit(0));
         }
 
-        // s2_axes
-        self.axis_u.at.next = self.s1_u.q.val();
-        self.axis_u.load.next = self.s1_load.q.val();
-        self.axis_u.load_at.next = self.s1_i.q.val();
-        self.axis_u.nearest.next = self.s1_nearest.q.val();
+        // s2_level
+        self.known.next = self.s1_level.q.val() < self.count.q.val();
+        self.level.next = self.s1_level.q.val();
+        if self.s1_fetches.q.val() && !self.known.val() {
+            self.level.next = self.count.q.val() - 1;
+        }
+        self.in_order.next = self.s1_level.q.val() <= self.count.q.val() && self.s1_level.q.val() != 15;
+        self.levels.write.next = self.go.val() && self.s1_sizes.q.val() && self.in_order.val() && self.s1_sound.q.val();
+        self.levels.write_level.next = self.s1_level.q.val();
+        self.levels.in_width.next = self.s1_width.q.val();
+        self.levels.in_height.next = self.s1_height.q.val();
+        self.levels.in_base.next = self.s1_base.q.val();
+        self.levels.in_pitch.next = self.s1_pitch.q.val();
+        self.levels.in_repeat_u.next = self.s1_repeat_u.q.val();
+        self.levels.in_repeat_v.next = self.s1_repeat_v.q.val();
+        self.levels.level.next = self.s2_level.q.val();
+        if self.go.val() {
+            if self.s1_sizes.q.val() && self.in_order.val() {
+                self.count.d.next = self.s1_level.q.val();
+                if self.s1_sound.q.val() {
+                    self.count.d.next = self.s1_level.q.val() + 1;
+                }
+            }
+            self.s2_sends.d.next = self.s1_fetches.q.val();
+            self.s2_load.d.next = self.s1_loads.q.val() && self.known.val();
+            self.s2_fails.d.next = (self.s1_sizes.q.val() && !(self.in_order.val() && self.s1_sound.q.val()))
+                || (self.s1_loads.q.val() && !self.known.val())
+                || (self.s1_fetches.q.val() && self.count.q.val() == 0);
+            self.s2_blank.d.next = self.count.q.val() == 0;
+            self.s2_level.d.next = self.level.val();
+            self.s2_shift.d.next = self.level.val();
+            if self.s1_loads.q.val() {
+                self.s2_shift.d.next = 0.into();
+            }
+            self.s2_u.d.next = self.s1_u.q.val();
+            self.s2_v.d.next = self.s1_v.q.val();
+            self.s2_nearest.d.next = self.s1_nearest.q.val();
+            self.s2_value.d.next = self.s1_value.q.val();
+            // s3_shift
+            self.s3_u.d.next = self.s2_u.q.val() >> self.s2_shift.q.val();
+            self.s3_v.d.next = self.s2_v.q.val() >> self.s2_shift.q.val();
+            self.s3_nearest.d.next = self.s2_nearest.q.val();
+            self.s3_value.d.next = self.s2_value.q.val();
+            self.s3_blank.d.next = self.s2_blank.q.val();
+        }
+
+        // s4_compare to s6_sort: the axes.
+        self.axis_u.at.next = self.s3_u.q.val();
+        self.axis_u.load.next = self.loading.q.val().get_bit(0);
+        self.axis_u.nearest.next = self.s3_nearest.q.val();
         self.axis_u.side.next = self.levels.width.val();
         self.axis_u.repeats.next = self.levels.repeat_u.val();
-        self.axis_v.at.next = self.s1_v.q.val();
-        self.axis_v.load.next = self.s1_load.q.val();
-        self.axis_v.load_at.next = self.s1_j.q.val();
-        self.axis_v.nearest.next = self.s1_nearest.q.val();
+        self.axis_v.at.next = self.s3_v.q.val();
+        self.axis_v.load.next = self.loading.q.val().get_bit(0);
+        self.axis_v.nearest.next = self.s3_nearest.q.val();
         self.axis_v.side.next = self.levels.height.val();
         self.axis_v.repeats.next = self.levels.repeat_v.val();
-        self.outside.next =
-            (self.s2_sends.q.val() || self.s2_load.q.val()) && (self.axis_u.outside.val() || self.axis_v.outside.val());
+        self.outside.next = (self.sending.q.val().get_bit(3) || self.loading.q.val().get_bit(3))
+            && (self.axis_u.outside.val() || self.axis_v.outside.val());
         self.weights_u.next = bit_cast_to::<Lanes<2, 14>>(self.axis_u.weight.val());
-        self.s2_weights.next = self.weights_u.val().replace_bit(1, self.axis_v.weight.val());
+        self.s6_weights.next = self.weights_u.val().replace_bit(1, self.axis_v.weight.val());
 
-        // s3_product to s6_texel: the banks.
-        self.banks.base.next = self.s2_base.q.val();
-        self.banks.pitch.next = self.s2_pitch.q.val();
+        // s7_product to s12_texel: the banks.
+        self.banks.base.next = self.s6_base.q.val();
+        self.banks.pitch.next = self.s6_pitch.q.val();
         self.banks.even_column.next = self.axis_u.even.val();
         self.banks.odd_column.next = self.axis_u.odd.val();
         self.banks.even_row.next = self.axis_v.even.val();
@@ -233,55 +398,70 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             | (bit_cast_to::<U<4>>(self.axis_v.first_odd.val()) << 1)
             | (bit_cast_to::<U<4>>(self.axis_u.same.val()) << 2)
             | (bit_cast_to::<U<4>>(self.axis_v.same.val()) << 3);
-        self.banks.blank.next = self.s2_blank.q.val();
-        self.banks.write.next = self.s2_load.q.val() && !self.outside.val();
-        self.banks.write_data.next = self.s2_value.q.val();
+        self.banks.blank.next = self.s6_blank.q.val();
+        self.banks.write.next = self.loading.q.val().get_bit(3) && !self.outside.val();
+        self.banks.write_data.next = self.s6_value.q.val();
+        self.beyond.next =
+            (self.sending.q.val().get_bit(5) || self.loading.q.val().get_bit(5)) && self.banks.beyond.val();
 
-        // s7_difference to s12_value: the interpolation.
+        // s13_difference to s19_value: the interpolation.
         self.bilinear.t00.next = self.banks.t00.val();
         self.bilinear.t10.next = self.banks.t10.val();
         self.bilinear.t01.next = self.banks.t01.val();
         self.bilinear.t11.next = self.banks.t11.val();
-        self.bilinear.a.next = self.s6_weights.q.val().get_bit(0);
-        self.bilinear.b.next = self.s6_weights.q.val().get_bit(1);
+        self.bilinear.a.next = self.s12_weights.q.val().get_bit(0);
+        self.bilinear.b.next = self.s12_weights.q.val().get_bit(1);
 
+        // An axis finds out at s6 what fails, a bank at s8.
+        self.failing_behind.next = (self.failing.q.val() << 1)
+            | bit_cast_to::<U<16>>(self.s2_fails.q.val())
+            | (bit_cast_to::<U<16>>(self.outside.val()) << 4)
+            | (bit_cast_to::<U<16>>(self.beyond.val()) << 6);
         if self.go.val() {
-            self.s2_base.d.next = self.levels.base.val();
-            self.s2_pitch.d.next = self.levels.pitch.val();
-            self.s2_load.d.next = self.s1_load.q.val();
-            self.s2_value.d.next = self.s1_value.q.val();
-            self.s2_blank.d.next = self.s1_blank.q.val();
-            self.s3_load.d.next = self.s2_load.q.val();
-            self.s4_load.d.next = self.s3_load.q.val();
-            self.s3_weights.d.next = self.s2_weights.val();
-            self.s4_weights.d.next = self.s3_weights.q.val();
-            self.s5_weights.d.next = self.s4_weights.q.val();
-            self.s6_weights.d.next = self.s5_weights.q.val();
-            self.s2_sends.d.next = self.s1_sends.q.val();
-            self.s3_sends.d.next = self.s2_sends.q.val();
-            self.s4_sends.d.next = self.s3_sends.q.val();
-            self.s5_sends.d.next = self.s4_sends.q.val();
-            self.s6_sends.d.next = self.s5_sends.q.val();
-            self.s7_sends.d.next = self.s6_sends.q.val();
-            self.s8_sends.d.next = self.s7_sends.q.val();
-            self.s9_sends.d.next = self.s8_sends.q.val();
-            self.s10_sends.d.next = self.s9_sends.q.val();
-            self.s11_sends.d.next = self.s10_sends.q.val();
-            self.s12_sends.d.next = self.s11_sends.q.val();
-            self.s2_fails.d.next = self.s1_fails.q.val();
-            self.s3_fails.d.next = self.s2_fails.q.val() || self.outside.val();
-            self.s4_fails.d.next = self.s3_fails.q.val();
-            self.s5_fails.d.next =
-                self.s4_fails.q.val() || ((self.s4_sends.q.val() || self.s4_load.q.val()) && self.banks.beyond.val());
-            self.s6_fails.d.next = self.s5_fails.q.val();
-            self.s7_fails.d.next = self.s6_fails.q.val();
-            self.s8_fails.d.next = self.s7_fails.q.val();
-            self.s9_fails.d.next = self.s8_fails.q.val();
-            self.s10_fails.d.next = self.s9_fails.q.val();
-            self.s11_fails.d.next = self.s10_fails.q.val();
-            if self.s11_fails.q.val() {
+            self.loading.d.next = (self.loading.q.val() << 1) | bit_cast_to::<U<6>>(self.s2_load.q.val());
+            self.sending.d.next = (self.sending.q.val() << 1) | bit_cast_to::<U<17>>(self.s2_sends.q.val());
+            self.failing.d.next = self.failing_behind.val();
+            if self.failing.q.val().get_bit(15) {
                 self.failed.d.next = true;
             }
+            self.s4_base.d.next = self.levels.base.val();
+            self.s5_base.d.next = self.s4_base.q.val();
+            self.s6_base.d.next = self.s5_base.q.val();
+            self.s4_pitch.d.next = self.levels.pitch.val();
+            self.s5_pitch.d.next = self.s4_pitch.q.val();
+            self.s6_pitch.d.next = self.s5_pitch.q.val();
+            self.s4_value.d.next = self.s3_value.q.val();
+            self.s5_value.d.next = self.s4_value.q.val();
+            self.s6_value.d.next = self.s5_value.q.val();
+            self.s4_blank.d.next = self.s3_blank.q.val();
+            self.s5_blank.d.next = self.s4_blank.q.val();
+            self.s6_blank.d.next = self.s5_blank.q.val();
+            self.s7_weights.d.next = self.s6_weights.val();
+            self.s8_weights.d.next = self.s7_weights.q.val();
+            self.s9_weights.d.next = self.s8_weights.q.val();
+            self.s10_weights.d.next = self.s9_weights.q.val();
+            self.s11_weights.d.next = self.s10_weights.q.val();
+            self.s12_weights.d.next = self.s11_weights.q.val();
+        }
+
+        // s20: at most one more value arrives while the first one waits.
+        self.arrives.next = self.go.val() && self.sending.q.val().get_bit(16);
+        self.out_free.next = !self.sent_valid.q.val() || self.out_ready.val();
+        self.spare_behind.next = !self.out_free.val() && (self.spare_valid.q.val() || self.arrives.val());
+        self.spare_valid.d.next = self.spare_behind.val();
+        self.moves.d.next = !self.spare_behind.val();
+        if self.out_free.val() {
+            self.sent_valid.d.next = self.spare_valid.q.val() || self.arrives.val();
+            self.sent_value.d.next = self.bilinear.value.val();
+            self.sent_failed.d.next = self.failed.q.val();
+            if self.spare_valid.q.val() {
+                self.sent_value.d.next = self.spare_value.q.val();
+                self.sent_failed.d.next = self.spare_failed.q.val();
+            }
+        }
+        if self.go.val() {
+            self.spare_value.d.next = self.bilinear.value.val();
+            self.spare_failed.d.next = self.failed.q.val();
         }
     }
 
@@ -296,6 +476,6 @@ ports! {
             in_pitch, in_repeat_u, in_repeat_v, out_ready;
         outputs: in_ready, out_valid, out_value, error;
         blocks: levels, axis_u, axis_v, banks, bilinear;
-        state: count, levels, axis_u, axis_v, banks, bilinear, s1_u, s1_v, s1_i, s1_j, s1_load, s1_nearest, s1_value, s1_blank, s2_base, s2_pitch, s2_load, s2_value, s2_blank, s3_weights, s4_weights, s5_weights, s6_weights, s1_sends, s2_sends, s3_sends, s4_sends, s5_sends, s6_sends, s7_sends, s8_sends, s9_sends, s10_sends, s11_sends, s12_sends, s1_fails, s2_fails, s3_fails, s4_fails, s5_fails, s6_fails, s7_fails, s8_fails, s9_fails, s10_fails, s11_fails, s3_load, s4_load, failed
+        state: count, levels, axis_u, axis_v, banks, bilinear, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_value, s3_blank, s4_base, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base, s6_pitch, s6_value, s6_blank, s7_weights, s8_weights, s9_weights, s10_weights, s11_weights, loading, sending, failing, failed, s12_weights, moves, sent_valid, sent_value, sent_failed, spare_valid, spare_value, spare_failed
     }
 }

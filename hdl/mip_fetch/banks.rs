@@ -3,13 +3,16 @@
 //!
 //! bank = (j & 1) * 2 + (i & 1), word = base + (j >> 1) * pitch + (i >> 1)
 //!
-//! | stage        | what it does                               |   Latency 4, interval 1; holds while `go` is low
+//! | stage        | what it does                               |   Latency 6, interval 1; holds while `go` is low
 //! | s1_product   | rows times pitch, columns plus base        |   Golden: models::mip_fetch   Error 0
-//! | s2_word      | words of the four banks, compared with the depth |
-//! | s3_read      | the memories, read or written              |
-//! | s4_texel     | banks to texels; what lies beyond the memory, and every texel of a `blank` fetch, is zero |
+//! | s2_word      | words of the four banks                    |
+//! | s3_check     | words compared with the depth; a load picks its bank |
+//! | s4_read      | the memories, read or written              |
+//! | s5_register  | the register behind each memory            |
+//! | s6_texel     | banks to texels; what lies beyond the memory, and every texel of a `blank` fetch, is zero |
 //!
-//! `beyond` comes one cycle after s2_word. A load gives all banks the same word, and its parity picks the bank.
+//! `beyond` comes with s2_word. A load gives all banks the same word, and its parity picks the bank. The block RAMs lie
+//! far apart, so what goes to all of them comes from registers.
 
 use crate::prelude::*;
 
@@ -51,16 +54,25 @@ pub struct MipBanks<const M: usize, const A: usize> {
     s2_blank: DataRegister<Bit>,
     s2_write: Register<Bit>,
     s2_data: DataRegister<U<16>>,
-    s3_bank_0: Ram<U<16>, A>,
-    s3_bank_1: Ram<U<16>, A>,
-    s3_bank_2: Ram<U<16>, A>,
-    s3_bank_3: Ram<U<16>, A>,
+    bank_0: RegisteredRam<U<16>, A, true>,
+    bank_1: RegisteredRam<U<16>, A, true>,
+    bank_2: RegisteredRam<U<16>, A, true>,
+    bank_3: RegisteredRam<U<16>, A, true>,
+    s3_address_0: DataRegister<U<A>>,
+    s3_address_1: DataRegister<U<A>>,
+    s3_address_2: DataRegister<U<A>>,
+    s3_address_3: DataRegister<U<A>>,
     s3_zero: DataRegister<U<4>>,
     s3_flags: DataRegister<U<4>>,
-    s4_t00: DataRegister<S<17>>,
-    s4_t10: DataRegister<S<17>>,
-    s4_t01: DataRegister<S<17>>,
-    s4_t11: DataRegister<S<17>>,
+    s4_flags: DataRegister<U<4>>,
+    s5_zero: DataRegister<U<4>>,
+    s4_zero: DataRegister<U<4>>,
+    /// Parities of the first and the second column, and of the first and the second row.
+    s5_parities: DataRegister<U<4>>,
+    s6_t00: DataRegister<S<17>>,
+    s6_t10: DataRegister<S<17>>,
+    s6_t01: DataRegister<S<17>>,
+    s6_t11: DataRegister<S<17>>,
     /// The words of the banks, as far as they fit an address.
     fit_0: Wire<U<28>>,
     fit_1: Wire<U<28>>,
@@ -79,19 +91,18 @@ pub struct MipBanks<const M: usize, const A: usize> {
     even_second: Wire<S<17>>,
     odd_first: Wire<S<17>>,
     odd_second: Wire<S<17>>,
-    near_first: Wire<S<17>>,
-    near_second: Wire<S<17>>,
-    far_first: Wire<S<17>>,
-    far_second: Wire<S<17>>,
+    second_column: Wire<Bit>,
+    second_row: Wire<Bit>,
 }
 
 impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, s1_even_rows, s1_odd_rows, s3_bank_0, s3_bank_1, s3_bank_2, s3_bank_3);
+        clock!(self, clock, s1_even_rows, s1_odd_rows, bank_0, bank_1, bank_2, bank_3);
         dff_setup!(self, clock, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data);
         dff_setup!(self, clock, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data);
-        dff_setup!(self, clock, s3_zero, s3_flags, s4_t00, s4_t10, s4_t01, s4_t11);
+        dff_setup!(self, clock, s3_zero, s3_flags, s4_zero, s5_parities, s6_t00, s6_t10, s6_t01, s6_t11);
+        dff_setup!(self, clock, s3_address_0, s3_address_1, s3_address_2, s3_address_3, s4_flags, s5_zero);
 
         // s1_product: 13 x 13 bits at most; the sums fit 28 bits with a base of up to 27.
         self.s1_even_rows.enable.next = self.go.val();
@@ -129,74 +140,76 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
         self.beyond_3.next = self.fit_3.val() != self.s2_word_3.q.val();
         self.beyond.next = self.beyond_0.val() || self.beyond_1.val() || self.beyond_2.val() || self.beyond_3.val();
 
-        // s3_read
+        // s3_check, s4_read
         self.writes.next = self.go.val() && self.s2_write.q.val() && !self.beyond_0.val();
-        self.s3_bank_0.enable.next = self.go.val();
-        self.s3_bank_1.enable.next = self.go.val();
-        self.s3_bank_2.enable.next = self.go.val();
-        self.s3_bank_3.enable.next = self.go.val();
-        self.s3_bank_0.read_address.next = bit_cast_to::<U<A>>(self.s2_word_0.q.val());
-        self.s3_bank_1.read_address.next = bit_cast_to::<U<A>>(self.s2_word_1.q.val());
-        self.s3_bank_2.read_address.next = bit_cast_to::<U<A>>(self.s2_word_2.q.val());
-        self.s3_bank_3.read_address.next = bit_cast_to::<U<A>>(self.s2_word_3.q.val());
-        self.s3_bank_0.write_address.next = bit_cast_to::<U<A>>(self.s2_word_0.q.val());
-        self.s3_bank_1.write_address.next = bit_cast_to::<U<A>>(self.s2_word_1.q.val());
-        self.s3_bank_2.write_address.next = bit_cast_to::<U<A>>(self.s2_word_2.q.val());
-        self.s3_bank_3.write_address.next = bit_cast_to::<U<A>>(self.s2_word_3.q.val());
-        self.s3_bank_0.write_data.next = self.s2_data.q.val();
-        self.s3_bank_1.write_data.next = self.s2_data.q.val();
-        self.s3_bank_2.write_data.next = self.s2_data.q.val();
-        self.s3_bank_3.write_data.next = self.s2_data.q.val();
-        self.s3_bank_0.write_enable.next =
+        self.bank_0.enable.next = self.go.val();
+        self.bank_0.output_enable.next = self.go.val();
+        self.bank_1.enable.next = self.go.val();
+        self.bank_1.output_enable.next = self.go.val();
+        self.bank_2.enable.next = self.go.val();
+        self.bank_2.output_enable.next = self.go.val();
+        self.bank_3.enable.next = self.go.val();
+        self.bank_3.output_enable.next = self.go.val();
+        self.bank_0.read_address.next = self.s3_address_0.q.val();
+        self.bank_1.read_address.next = self.s3_address_1.q.val();
+        self.bank_2.read_address.next = self.s3_address_2.q.val();
+        self.bank_3.read_address.next = self.s3_address_3.q.val();
+        self.bank_0.write_address.next = bit_cast_to::<U<A>>(self.s2_word_0.q.val());
+        self.bank_1.write_address.next = bit_cast_to::<U<A>>(self.s2_word_1.q.val());
+        self.bank_2.write_address.next = bit_cast_to::<U<A>>(self.s2_word_2.q.val());
+        self.bank_3.write_address.next = bit_cast_to::<U<A>>(self.s2_word_3.q.val());
+        self.bank_0.write_data.next = self.s2_data.q.val();
+        self.bank_1.write_data.next = self.s2_data.q.val();
+        self.bank_2.write_data.next = self.s2_data.q.val();
+        self.bank_3.write_data.next = self.s2_data.q.val();
+        self.bank_0.write_enable.next =
             self.writes.val() && !self.s2_flags.q.val().get_bit(0) && !self.s2_flags.q.val().get_bit(1);
-        self.s3_bank_1.write_enable.next =
+        self.bank_1.write_enable.next =
             self.writes.val() && self.s2_flags.q.val().get_bit(0) && !self.s2_flags.q.val().get_bit(1);
-        self.s3_bank_2.write_enable.next =
+        self.bank_2.write_enable.next =
             self.writes.val() && !self.s2_flags.q.val().get_bit(0) && self.s2_flags.q.val().get_bit(1);
-        self.s3_bank_3.write_enable.next =
+        self.bank_3.write_enable.next =
             self.writes.val() && self.s2_flags.q.val().get_bit(0) && self.s2_flags.q.val().get_bit(1);
 
-        // s4_texel
-        self.data_0.next = bit_cast_to::<S<17>>(self.s3_bank_0.read_data.val());
-        self.data_1.next = bit_cast_to::<S<17>>(self.s3_bank_1.read_data.val());
-        self.data_2.next = bit_cast_to::<S<17>>(self.s3_bank_2.read_data.val());
-        self.data_3.next = bit_cast_to::<S<17>>(self.s3_bank_3.read_data.val());
-        if self.s3_zero.q.val().get_bit(0) {
+        // s5_register, s6_texel
+        self.data_0.next = bit_cast_to::<S<17>>(self.bank_0.read_data.val());
+        if self.s5_zero.q.val().get_bit(0) {
             self.data_0.next = 0.into();
         }
-        if self.s3_zero.q.val().get_bit(1) {
+        self.data_1.next = bit_cast_to::<S<17>>(self.bank_1.read_data.val());
+        if self.s5_zero.q.val().get_bit(1) {
             self.data_1.next = 0.into();
         }
-        if self.s3_zero.q.val().get_bit(2) {
+        self.data_2.next = bit_cast_to::<S<17>>(self.bank_2.read_data.val());
+        if self.s5_zero.q.val().get_bit(2) {
             self.data_2.next = 0.into();
         }
-        if self.s3_zero.q.val().get_bit(3) {
+        self.data_3.next = bit_cast_to::<S<17>>(self.bank_3.read_data.val());
+        if self.s5_zero.q.val().get_bit(3) {
             self.data_3.next = 0.into();
         }
         // In the even and in the odd row: the first and the second column's texel.
         self.even_first.next = self.data_0.val();
-        self.even_second.next = self.data_1.val();
         self.odd_first.next = self.data_2.val();
-        self.odd_second.next = self.data_3.val();
-        if self.s3_flags.q.val().get_bit(0) {
+        if self.s5_parities.q.val().get_bit(0) {
             self.even_first.next = self.data_1.val();
-            self.even_second.next = self.data_0.val();
             self.odd_first.next = self.data_3.val();
-            self.odd_second.next = self.data_2.val();
         }
-        self.near_first.next = self.even_first.val();
-        self.near_second.next = self.even_second.val();
-        self.far_first.next = self.odd_first.val();
-        self.far_second.next = self.odd_second.val();
-        if self.s3_flags.q.val().get_bit(1) {
-            self.near_first.next = self.odd_first.val();
-            self.near_second.next = self.odd_second.val();
-            self.far_first.next = self.even_first.val();
-            self.far_second.next = self.even_second.val();
+        self.even_second.next = self.data_0.val();
+        self.odd_second.next = self.data_2.val();
+        if self.s5_parities.q.val().get_bit(1) {
+            self.even_second.next = self.data_1.val();
+            self.odd_second.next = self.data_3.val();
         }
+        // The second neighbour has the other parity, unless it is the first.
+        self.second_column.next = self.s4_flags.q.val().get_bit(0) == self.s4_flags.q.val().get_bit(2);
+        self.second_row.next = self.s4_flags.q.val().get_bit(1) == self.s4_flags.q.val().get_bit(3);
         if self.go.val() {
             self.s3_flags.d.next = self.s2_flags.q.val();
-            self.s3_zero.d.next = 0.into();
+            self.s3_address_0.d.next = bit_cast_to::<U<A>>(self.s2_word_0.q.val());
+            self.s3_address_1.d.next = bit_cast_to::<U<A>>(self.s2_word_1.q.val());
+            self.s3_address_2.d.next = bit_cast_to::<U<A>>(self.s2_word_2.q.val());
+            self.s3_address_3.d.next = bit_cast_to::<U<A>>(self.s2_word_3.q.val());
             if self.s2_blank.q.val() {
                 self.s3_zero.d.next = 15.into();
             } else {
@@ -205,26 +218,30 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
                     | (bit_cast_to::<U<4>>(self.beyond_2.val()) << 2)
                     | (bit_cast_to::<U<4>>(self.beyond_3.val()) << 3);
             }
-            self.s4_t00.d.next = self.near_first.val();
-            self.s4_t10.d.next = self.near_second.val();
-            self.s4_t01.d.next = self.far_first.val();
-            self.s4_t11.d.next = self.far_second.val();
-            if self.s3_flags.q.val().get_bit(2) {
-                self.s4_t10.d.next = self.near_first.val();
-                self.s4_t11.d.next = self.far_first.val();
+            self.s4_zero.d.next = self.s3_zero.q.val();
+            self.s4_flags.d.next = self.s3_flags.q.val();
+            self.s5_zero.d.next = self.s4_zero.q.val();
+            self.s5_parities.d.next = bit_cast_to::<U<4>>(self.s4_flags.q.val().get_bit(0))
+                | (bit_cast_to::<U<4>>(self.second_column.val()) << 1)
+                | (bit_cast_to::<U<4>>(self.s4_flags.q.val().get_bit(1)) << 2)
+                | (bit_cast_to::<U<4>>(self.second_row.val()) << 3);
+            self.s6_t00.d.next = self.even_first.val();
+            self.s6_t10.d.next = self.even_second.val();
+            if self.s5_parities.q.val().get_bit(2) {
+                self.s6_t00.d.next = self.odd_first.val();
+                self.s6_t10.d.next = self.odd_second.val();
             }
-            if self.s3_flags.q.val().get_bit(3) {
-                self.s4_t01.d.next = self.near_first.val();
-                self.s4_t11.d.next = self.near_second.val();
-                if self.s3_flags.q.val().get_bit(2) {
-                    self.s4_t11.d.next = self.near_first.val();
-                }
+            self.s6_t01.d.next = self.even_first.val();
+            self.s6_t11.d.next = self.even_second.val();
+            if self.s5_parities.q.val().get_bit(3) {
+                self.s6_t01.d.next = self.odd_first.val();
+                self.s6_t11.d.next = self.odd_second.val();
             }
         }
-        self.t00.next = self.s4_t00.q.val();
-        self.t10.next = self.s4_t10.q.val();
-        self.t01.next = self.s4_t01.q.val();
-        self.t11.next = self.s4_t11.q.val();
+        self.t00.next = self.s6_t00.q.val();
+        self.t10.next = self.s6_t10.q.val();
+        self.t01.next = self.s6_t01.q.val();
+        self.t11.next = self.s6_t11.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -232,4 +249,4 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
     }
 }
 
-latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data, s3_bank_0, s3_bank_1, s3_bank_2, s3_bank_3, s3_zero, s3_flags, s4_t00, s4_t10, s4_t01, s4_t11 }
+latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data, bank_0, bank_1, bank_2, bank_3, s3_address_0, s3_address_1, s3_address_2, s3_address_3, s3_zero, s3_flags, s4_flags, s4_zero, s5_zero, s5_parities, s6_t00, s6_t10, s6_t01, s6_t11 }

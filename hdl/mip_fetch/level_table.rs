@@ -2,8 +2,8 @@
 //! Size, place and borders of every level.
 //!
 //! | port    | format   |   Latency 1, interval 1; the record holds while `go` is low
-//! | write   | Bit      | stores the fields of a level   Golden: models::mip_fetch (Placement)   Error 0
-//! | level   | unsigned 4 | of the level to be stored or read
+//! | write, write_level | Bit, unsigned 4 | stores the fields of a level, with `go` only
+//! | level   | unsigned 4 | the level to be read   Golden: models::mip_fetch (Placement)   Error 0
 //! | in_*    | the fields of `size`
 //! | *       | the fields of the level addressed in the cycle before
 
@@ -16,6 +16,7 @@ pub struct LevelTable<const M: usize, const A: usize> {
     pub clock: Input<ClockReset>,
     pub go: Input<Bit>,
     pub write: Input<Bit>,
+    pub write_level: Input<U<4>>,
     pub level: Input<U<4>>,
     pub in_width: Input<U<M>>,
     pub in_height: Input<U<M>>,
@@ -51,11 +52,11 @@ impl<const M: usize, const A: usize> Logic for LevelTable<M, A> {
         self.bases.write_enable.next = self.write.val();
         self.pitches.write_enable.next = self.write.val();
         self.repeats.write_enable.next = self.write.val();
-        self.widths.write_address.next = self.level.val();
-        self.heights.write_address.next = self.level.val();
-        self.bases.write_address.next = self.level.val();
-        self.pitches.write_address.next = self.level.val();
-        self.repeats.write_address.next = self.level.val();
+        self.widths.write_address.next = self.write_level.val();
+        self.heights.write_address.next = self.write_level.val();
+        self.bases.write_address.next = self.write_level.val();
+        self.pitches.write_address.next = self.write_level.val();
+        self.repeats.write_address.next = self.write_level.val();
         self.widths.read_address.next = self.level.val();
         self.heights.read_address.next = self.level.val();
         self.bases.read_address.next = self.level.val();

@@ -98,12 +98,12 @@ pub const CONTRACTS: [Contract; 10] = [
         exchange: Some(Exchange {
             asks: "in_kind >= 2",
             answers: "1'b1",
-            under_way: 12,
-            silence: Some(12),
-            cycles: 20,
+            under_way: 21,
+            silence: Some(20),
+            cycles: 30,
             cut: true,
         }),
-        reach: 20,
+        reach: 28,
         ..NONE
     },
     Contract { block: "sat_build", ..NONE },
