@@ -6,7 +6,7 @@
 //! cell:  level L+1 cell (i, j) = max and min of the 2 x 2 cells (2i .. 2i+1, 2j .. 2j+1) of level L
 //! ```
 //!
-//! | port        | format      | meaning |   Latency 6 from the last texel of a map of odd sides   Interval 1 (see fold)
+//! | port        | format      | meaning |   Latency 12 from the last texel of a map of odd sides   Interval 1 (see fold)
 //! | in_kind     | 1 bit       | 0 size, 1 texel, in raster order   Golden: models::mip_build::MipBuild   Error 0
 //! | in_width, in_height | unsigned M | of the map, at least one | size
 //! | in_repeat_u, in_repeat_v | Bit | the map repeats; the side must be even at every level | size
@@ -43,7 +43,7 @@ use crate::prelude::*;
 pub enum MipBuildState {
     /// Waits for a size.
     Idle,
-    /// Multiplies the sides of level 1.
+    /// Waits for the sides of level 1, and for their product.
     Measure,
     /// Takes the size, or refuses it.
     Check,
@@ -86,6 +86,8 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     level: Register<U<4>>,
     width: DataRegister<U<M>>,
     height: DataRegister<U<M>>,
+    width_last: DataRegister<U<M>>,
+    height_last: DataRegister<U<M>>,
     column: DataRegister<U<M>>,
     row: DataRegister<U<M>>,
     // The map.
@@ -94,10 +96,20 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     repeat_v: DataRegister<Bit>,
     cells: DataRegister<Bit>,
     has_poles: DataRegister<Bit>,
-    // The node that is read.
-    read_at: DataRegister<U<A>>,
-    read_valid: Register<Bit>,
-    // The node that is sent.
+    // What follows from the above a cycle later, three behind a size for the last of them.
+    width_above: DataRegister<U<M>>,
+    height_above: DataRegister<U<M>>,
+    folds: DataRegister<Bit>,
+    sides_fit: DataRegister<Bit>,
+    nodes_fit: DataRegister<Bit>,
+    measured: Register<U<2>>,
+    // Nodes on their way from the memory of this level: as many are asked for as the queue has room for.
+    feed: Ram<U<32>, 3>,
+    feed_in: Register<U<3>>,
+    feed_out: Register<U<3>>,
+    feed_valid: Register<Bit>,
+    feed_room: Register<U<4>>,
+    // The node that is sent, and the next one where it waits: so that `out_ready` is asked for no further back.
     sent_valid: Register<Bit>,
     sent_level: DataRegister<U<4>>,
     sent_i: DataRegister<U<M>>,
@@ -105,6 +117,13 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     sent_max: DataRegister<U<16>>,
     sent_min: DataRegister<U<16>>,
     sent_last: DataRegister<Bit>,
+    spare_valid: Register<Bit>,
+    spare_level: DataRegister<U<4>>,
+    spare_i: DataRegister<U<M>>,
+    spare_j: DataRegister<U<M>>,
+    spare_max: DataRegister<U<16>>,
+    spare_min: DataRegister<U<16>>,
+    spare_last: DataRegister<Bit>,
     area: Multiplier<14, 14, 28>,
     fold: MipFold<M, A>,
     poles: MipPoles<M>,
@@ -112,10 +131,11 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     even_levels: ExtremaMemory<B>,
     running: Wire<Bit>,
     on_map: Wire<Bit>,
+    on_odd: Wire<Bit>,
     texel: Wire<Bit>,
     size: Wire<Bit>,
     out_free: Wire<Bit>,
-    folds: Wire<Bit>,
+    out_room: Wire<Bit>,
     offered: Wire<Bit>,
     take: Wire<Bit>,
     word: Wire<U<32>>,
@@ -123,31 +143,49 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     texel_min: Wire<U<16>>,
     last_column: Wire<Bit>,
     last_row: Wire<Bit>,
-    width_above: Wire<U<M>>,
-    height_above: Wire<U<M>>,
-    width_kept: Wire<U<M>>,
-    height_kept: Wire<U<M>>,
+    none: Wire<U<M>>,
+    ones: Wire<U<M>>,
+    kept: Wire<U<M>>,
     nodes: Wire<U<28>>,
     nodes_behind: Wire<U<28>>,
     sound: Wire<Bit>,
-    reads: Wire<Bit>,
     advance: Wire<Bit>,
+    reads: Wire<Bit>,
+    arrives: Wire<Bit>,
+    feed_takes: Wire<Bit>,
     sends_poles: Wire<Bit>,
+    sends: Wire<Bit>,
     replaces: Wire<Bit>,
+    send_max: Wire<U<16>>,
+    send_min: Wire<U<16>>,
+    send_last: Wire<Bit>,
 }
 
 impl<const M: usize, const A: usize, const B: usize> MipBuild<M, A, B> {
     /// Cycles from the last texel of a map of odd sides to the first node.
-    pub const LATENCY: usize = 6;
+    pub const LATENCY: usize = 12;
 }
 
 impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, area, fold, poles, odd_levels, even_levels);
+        clock!(self, clock, area, fold, poles, odd_levels, even_levels, feed);
+        dff_setup!(self, clock, feed_in, feed_out, feed_valid, feed_room);
         dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
-        dff_setup!(self, clock, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
-        dff_setup!(self, clock, sent_last, has_poles);
+        dff_setup!(self, clock, has_poles, width_last, height_last, width_above, height_above, folds, sides_fit);
+        dff_setup!(self, clock, nodes_fit, measured, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
+        dff_setup!(
+            self,
+            clock,
+            sent_last,
+            spare_valid,
+            spare_level,
+            spare_i,
+            spare_j,
+            spare_max,
+            spare_min,
+            spare_last
+        );
         self.out_valid.next = self.sent_valid.q.val();
         self.out_level.next = self.sent_level.q.val();
         self.out_i.next = self.sent_i.q.val();
@@ -158,56 +196,58 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.error.next = self.failed.q.val();
 
         // Sides above: w / 2 + 1 nodes, w / 2 where they repeat, cells rounded up.
-        self.width_above.next = self.width.q.val() >> 1;
+        self.width_above.d.next = self.width.q.val() >> 1;
         if self.cells.q.val() {
-            self.width_above.next = (self.width.q.val() >> 1) + bit_cast_to::<U<M>>(self.width.q.val().get_bit(0));
+            self.width_above.d.next = (self.width.q.val() >> 1) + bit_cast_to::<U<M>>(self.width.q.val().get_bit(0));
         } else if !self.repeat_u.q.val() {
-            self.width_above.next = (self.width.q.val() >> 1) + 1;
+            self.width_above.d.next = (self.width.q.val() >> 1) + 1;
         }
-        self.height_above.next = self.height.q.val() >> 1;
+        self.height_above.d.next = self.height.q.val() >> 1;
         if self.cells.q.val() {
-            self.height_above.next = (self.height.q.val() >> 1) + bit_cast_to::<U<M>>(self.height.q.val().get_bit(0));
+            self.height_above.d.next = (self.height.q.val() >> 1) + bit_cast_to::<U<M>>(self.height.q.val().get_bit(0));
         } else if !self.repeat_v.q.val() {
-            self.height_above.next = (self.height.q.val() >> 1) + 1;
+            self.height_above.d.next = (self.height.q.val() >> 1) + 1;
         }
-        self.area.a.next = bit_cast_to::<S<14>>(self.width_above.val());
-        self.area.b.next = bit_cast_to::<S<14>>(self.height_above.val());
+        self.area.a.next = bit_cast_to::<S<14>>(self.width_above.q.val());
+        self.area.b.next = bit_cast_to::<S<14>>(self.height_above.q.val());
         // Up to 2^A nodes; none at all only where a side is none, which is refused.
         self.nodes.next = bit_cast_to::<U<28>>(self.area.p.val()) - 1;
         self.nodes_behind.next = bit_cast_to::<U<28>>(bit_cast_to::<U<A>>(self.nodes.val()));
+        self.nodes_fit.d.next = self.nodes_behind.val() == self.nodes.val();
         // A side that repeats has as many factors of two as there are levels.
-        self.width_kept.next = (self.width.q.val() >> self.levels.q.val()) << self.levels.q.val();
-        self.height_kept.next = (self.height.q.val() >> self.levels.q.val()) << self.levels.q.val();
-        self.sound.next = self.width.q.val() != 0
+        self.none.next = 0.into();
+        self.ones.next = self.none.val() - 1;
+        self.kept.next = self.ones.val() << self.levels.q.val();
+        self.sides_fit.d.next = self.width.q.val() != 0
             && self.height.q.val() != 0
+            && (!self.repeat_u.q.val() || (self.width.q.val() & self.kept.val()) == self.width.q.val())
+            && (!self.repeat_v.q.val() || (self.height.q.val() & self.kept.val()) == self.height.q.val());
+        self.folds.d.next = self.level.q.val() + 1 != self.levels.q.val();
+        self.sound.next = self.sides_fit.q.val()
             && self.levels.q.val() != 0
-            && (!self.repeat_u.q.val() || self.width_kept.val() == self.width.q.val())
-            && (!self.repeat_v.q.val() || self.height_kept.val() == self.height.q.val())
             && (!self.repeat_v.q.val() || !self.has_poles.q.val())
-            && (self.levels.q.val() == 1 || self.nodes_behind.val() == self.nodes.val());
+            && (self.levels.q.val() == 1 || self.nodes_fit.q.val());
 
         self.running.next = self.state.q.val() == MipBuildState::Run;
         self.on_map.next = self.level.q.val() == 0;
+        self.on_odd.next = self.level.q.val().get_bit(0);
         self.texel.next = self.in_valid.val() && self.in_kind.val() == 1;
-        self.out_free.next = !self.sent_valid.q.val() || self.out_ready.val();
-        self.folds.next = self.level.q.val() + 1 != self.levels.q.val();
+        self.out_free.next = !self.spare_valid.q.val() && (!self.sent_valid.q.val() || self.out_ready.val());
+        self.out_room.next = !self.spare_valid.q.val();
         self.offered.next = self.running.val() && self.texel.val();
         if !self.on_map.val() {
-            self.offered.next = self.running.val() && self.read_valid.q.val() && self.out_free.val();
+            self.offered.next = self.running.val() && self.out_room.val() && self.feed_valid.q.val();
         }
-        self.word.next = self.even_levels.read_word.val();
-        if self.level.q.val().get_bit(0) {
-            self.word.next = self.odd_levels.read_word.val();
-        }
+        self.word.next = self.feed.read_data.val();
         self.texel_max.next = self.word.val().get_bits::<16>(16);
         self.texel_min.next = self.word.val().get_bits::<16>(0);
         if self.on_map.val() {
             self.texel_max.next = self.in_value.val();
             self.texel_min.next = self.in_value.val();
         }
-        self.last_column.next = self.column.q.val() + 1 == self.width.q.val();
-        self.last_row.next = self.row.q.val() + 1 == self.height.q.val();
-        self.fold.valid.next = self.offered.val() && self.folds.val();
+        self.last_column.next = self.column.q.val() == self.width_last.q.val();
+        self.last_row.next = self.row.q.val() == self.height_last.q.val();
+        self.fold.valid.next = self.offered.val() && self.folds.q.val();
         self.fold.max.next = self.texel_max.val();
         self.fold.min.next = self.texel_min.val();
         self.fold.column.next = self.column.q.val();
@@ -219,45 +259,73 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.fold.cells.next = self.cells.q.val();
         self.fold.repeat_u.next = self.repeat_u.q.val();
         self.fold.repeat_v.next = self.repeat_v.q.val();
-        self.fold.width_above.next = self.width_above.val();
-        self.take.next = self.offered.val() && (!self.folds.val() || self.fold.ready.val());
+        self.fold.width_above.next = self.width_above.q.val();
+        self.take.next = self.offered.val() && (!self.folds.q.val() || self.fold.ready.val());
         // A beat that waits behind a map waits for its last node, too, so that an error of its own comes after it.
         self.in_ready.next = (self.state.q.val() == MipBuildState::Idle && self.out_free.val())
             || (self.running.val()
                 && self.on_map.val()
-                && (!self.folds.val() || self.fold.ready.val() || self.in_kind.val() == 0));
+                && (!self.folds.q.val() || self.fold.ready.val() || self.in_kind.val() == 0));
         self.size.next = self.in_valid.val()
             && self.in_kind.val() == 0
             && ((self.state.q.val() == MipBuildState::Idle && self.out_free.val())
                 || (self.running.val() && self.on_map.val()));
 
         // The memory above takes the nodes, the memory of this level is read.
-        self.odd_levels.op.next = self.fold.op.val() && !self.level.q.val().get_bit(0);
+        self.odd_levels.op.next = self.fold.op.val() && !self.on_odd.val();
         self.odd_levels.fresh.next = self.fold.op_fresh.val();
         self.odd_levels.address.next = self.fold.op_address.val();
         self.odd_levels.max.next = self.fold.op_max.val();
         self.odd_levels.min.next = self.fold.op_min.val();
-        self.even_levels.op.next = self.fold.op.val() && self.level.q.val().get_bit(0);
+        self.reads.next = self.running.val() && !self.on_map.val() && self.feed_room.q.val() != 0;
+        self.odd_levels.read.next = self.reads.val() && self.on_odd.val();
+        self.even_levels.op.next = self.fold.op.val() && self.on_odd.val();
         self.even_levels.fresh.next = self.fold.op_fresh.val();
         self.even_levels.address.next = bit_cast_to::<U<B>>(self.fold.op_address.val());
         self.even_levels.max.next = self.fold.op_max.val();
         self.even_levels.min.next = self.fold.op_min.val();
-        self.reads.next = self.running.val() && !self.on_map.val() && (!self.read_valid.q.val() || self.take.val());
-        self.odd_levels.read.next = self.reads.val() && self.level.q.val().get_bit(0);
-        self.odd_levels.read_address.next = self.read_at.q.val();
-        self.even_levels.read.next = self.reads.val() && !self.level.q.val().get_bit(0);
-        self.even_levels.read_address.next = bit_cast_to::<U<B>>(self.read_at.q.val());
-        if self.reads.val() {
-            self.read_at.d.next = self.read_at.q.val() + 1;
-            self.read_valid.d.next = true;
+        self.even_levels.read.next = self.reads.val() && !self.on_odd.val();
+        self.arrives.next = self.odd_levels.word_valid.val() || self.even_levels.word_valid.val();
+        self.feed.write_enable.next = self.arrives.val();
+        self.feed.write_address.next = self.feed_in.q.val();
+        self.feed.write_data.next = self.even_levels.word.val();
+        if self.on_odd.val() {
+            self.feed.write_data.next = self.odd_levels.word.val();
+        }
+        if self.arrives.val() {
+            self.feed_in.d.next = self.feed_in.q.val() + 1;
+        }
+        self.feed_takes.next = !self.feed_valid.q.val() || self.take.val();
+        self.feed.enable.next = self.feed_takes.val();
+        self.feed.read_address.next = self.feed_out.q.val();
+        if self.feed_takes.val() {
+            self.feed_valid.d.next = self.feed_out.q.val() != self.feed_in.q.val();
+            if self.feed_out.q.val() != self.feed_in.q.val() {
+                self.feed_out.d.next = self.feed_out.q.val() + 1;
+            }
+        }
+        if self.reads.val() && !self.take.val() {
+            self.feed_room.d.next = self.feed_room.q.val() - 1;
+        } else if self.take.val() && !self.reads.val() {
+            self.feed_room.d.next = self.feed_room.q.val() + 1;
         }
 
         self.advance.next = self.state.q.val() == MipBuildState::Flush
             && self.fold.idle.val()
             && !self.odd_levels.busy.val()
             && !self.even_levels.busy.val();
+        self.odd_levels.rewind.next = self.advance.val();
+        self.even_levels.rewind.next = self.advance.val();
+        // Nothing is on its way by then: a level ends cycles before the next one begins.
+        if self.advance.val() {
+            self.feed_in.d.next = 0.into();
+            self.feed_out.d.next = 0.into();
+            self.feed_valid.d.next = false;
+            self.feed_room.d.next = 8.into();
+        }
         self.fold.clear.next = self.size.val() || self.advance.val();
-        self.sends_poles.next = self.state.q.val() == MipBuildState::Poles && self.out_free.val();
+        self.sends_poles.next =
+            self.state.q.val() == MipBuildState::Poles && self.out_room.val() && !self.poles.busy.val();
         self.poles.size.next = self.size.val();
         self.poles.height.next = self.in_height.val();
         self.poles.advance.next = self.advance.val();
@@ -269,7 +337,10 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.poles.min.next = self.texel_min.val();
         self.replaces.next = self.has_poles.q.val() && self.poles.in_pole.val();
         if self.state.q.val() == MipBuildState::Measure {
-            self.state.d.next = MipBuildState::Check;
+            self.measured.d.next = self.measured.q.val() + 1;
+            if self.measured.q.val() == 2 {
+                self.state.d.next = MipBuildState::Check;
+            }
         } else if self.state.q.val() == MipBuildState::Check {
             self.state.d.next = MipBuildState::Run;
             if !self.sound.val() {
@@ -287,7 +358,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
                 if self.last_row.val() {
                     self.row.d.next = 0.into();
                     self.state.d.next = MipBuildState::Idle;
-                    if self.folds.val() {
+                    if self.folds.q.val() {
                         self.state.d.next = MipBuildState::Flush;
                     }
                     if self.take.val() && self.on_map.val() && self.has_poles.q.val() {
@@ -298,18 +369,21 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         } else if self.advance.val() {
             self.state.d.next = MipBuildState::Run;
             self.level.d.next = self.level.q.val() + 1;
-            self.width.d.next = self.width_above.val();
-            self.height.d.next = self.height_above.val();
+            self.width.d.next = self.width_above.q.val();
+            self.height.d.next = self.height_above.q.val();
+            self.width_last.d.next = self.width_above.q.val() - 1;
+            self.height_last.d.next = self.height_above.q.val() - 1;
             self.column.d.next = 0.into();
             self.row.d.next = 0.into();
-            self.read_at.d.next = 0.into();
-            self.read_valid.d.next = false;
         }
         if self.size.val() {
             self.state.d.next = MipBuildState::Measure;
+            self.measured.d.next = 0.into();
             self.level.d.next = 0.into();
             self.width.d.next = self.in_width.val();
             self.height.d.next = self.in_height.val();
+            self.width_last.d.next = self.in_width.val() - 1;
+            self.height_last.d.next = self.in_height.val() - 1;
             self.column.d.next = 0.into();
             self.row.d.next = 0.into();
             self.levels.d.next = self.in_levels.val();
@@ -317,7 +391,6 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.repeat_v.d.next = self.in_repeat_v.val();
             self.cells.d.next = self.in_cell.val();
             self.has_poles.d.next = self.in_poles.val();
-            self.read_valid.d.next = false;
             if self.running.val() {
                 self.failed.d.next = true;
             }
@@ -325,20 +398,43 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         if self.texel.val() && self.state.q.val() == MipBuildState::Idle && self.out_free.val() {
             self.failed.d.next = true;
         }
-        if self.out_free.val() {
-            self.sent_valid.d.next = (self.take.val() && !self.on_map.val()) || self.sends_poles.val();
+
+        // What is sent goes behind what waits.
+        self.sends.next = (self.take.val() && !self.on_map.val()) || self.sends_poles.val();
+        self.send_max.next = self.texel_max.val();
+        self.send_min.next = self.texel_min.val();
+        if self.replaces.val() {
+            self.send_max.next = self.poles.pole_max.val();
+            self.send_min.next = self.poles.pole_min.val();
         }
-        if (self.take.val() && !self.on_map.val()) || self.sends_poles.val() {
+        self.send_last.next = self.last_column.val() && self.last_row.val() && !self.folds.q.val();
+        if !self.sent_valid.q.val() || self.out_ready.val() {
+            self.sent_valid.d.next = self.spare_valid.q.val() || self.sends.val();
+            self.spare_valid.d.next = false;
             self.sent_level.d.next = self.level.q.val();
             self.sent_i.d.next = self.column.q.val();
             self.sent_j.d.next = self.row.q.val();
-            self.sent_max.d.next = self.texel_max.val();
-            self.sent_min.d.next = self.texel_min.val();
-            if self.replaces.val() {
-                self.sent_max.d.next = self.poles.pole_max.val();
-                self.sent_min.d.next = self.poles.pole_min.val();
+            self.sent_max.d.next = self.send_max.val();
+            self.sent_min.d.next = self.send_min.val();
+            self.sent_last.d.next = self.send_last.val();
+            if self.spare_valid.q.val() {
+                self.sent_level.d.next = self.spare_level.q.val();
+                self.sent_i.d.next = self.spare_i.q.val();
+                self.sent_j.d.next = self.spare_j.q.val();
+                self.sent_max.d.next = self.spare_max.q.val();
+                self.sent_min.d.next = self.spare_min.q.val();
+                self.sent_last.d.next = self.spare_last.q.val();
             }
-            self.sent_last.d.next = self.last_column.val() && self.last_row.val() && !self.folds.val();
+        } else if self.sends.val() {
+            self.spare_valid.d.next = true;
+        }
+        if self.out_room.val() {
+            self.spare_level.d.next = self.level.q.val();
+            self.spare_i.d.next = self.column.q.val();
+            self.spare_j.d.next = self.row.q.val();
+            self.spare_max.d.next = self.send_max.val();
+            self.spare_min.d.next = self.send_min.val();
+            self.spare_last.d.next = self.send_last.val();
         }
     }
 
@@ -352,6 +448,6 @@ ports! {
         inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_poles, in_levels, in_value, out_ready;
         outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
         blocks: fold, poles, odd_levels, even_levels;
-        state: state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells, has_poles, read_at, read_valid, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, area, fold, poles, odd_levels, even_levels
+        state: state, failed, level, width, height, width_last, height_last, column, row, levels, repeat_u, repeat_v, cells, has_poles, width_above, height_above, folds, sides_fit, nodes_fit, measured, feed, feed_in, feed_out, feed_valid, feed_room, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, spare_valid, spare_level, spare_i, spare_j, spare_max, spare_min, spare_last, area, fold, poles, odd_levels, even_levels
     }
 }

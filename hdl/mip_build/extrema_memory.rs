@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Nodes under construction in a block RAM: a maximum and a minimum each, one more value taken in a cycle.
+//! Nodes in a block RAM: under construction, a maximum and a minimum each, one more value taken in a cycle; once they are
+//! complete, read one after the other.
 //!
-//! | port          | format     |   Latency 1 of a read, interval 1
+//! | port          | format     |   Interval 1
 //! | op, fresh     | Bit        | takes `max` and `min` into the node at `address`, or makes them the node
-//! | read          | Bit        | reads the node at `read_address`; not together with `op`
-//! | read_word     | 32 bits    | maximum * 2^16 + minimum; holds until the next read or op
-//! | busy          | Bit        | the last op is not yet written   Golden: models::mip_build   Error 0
+//! | busy          | Bit        | the first read would overtake an op   Golden: models::mip_build   Error 0
+//! | rewind        | Bit        | the next node to be read is node 0
+//! | read          | Bit        | reads the next node; not together with `op`, nor while `busy`
+//! | word, word_valid | 32 bits, Bit | three cycles later: maximum * 2^16 + minimum
 //!
-//! The word read for an op is one write old; where that write went to the same node, its word is taken instead.
+//! The block RAMs lie far apart, so nothing holds them, and what goes to all of them comes from registers.
+//!
+//! | stage      | what becomes of an op
+//! | s1_address | the node is addressed
+//! | s2_read    | the block RAM answers; are the ops in s3, s4 and s5 of the same node?
+//! | s3_compare | the extrema are compared with the node, or with what these ops have made of it, the last one first
+//! | s4_write   | the node is written, by the register within the RAM; s5_written keeps it for another cycle
 
 use crate::prelude::*;
 
@@ -21,73 +29,135 @@ pub struct ExtremaMemory<const A: usize> {
     pub address: Input<U<A>>,
     pub max: Input<U<16>>,
     pub min: Input<U<16>>,
-    pub read: Input<Bit>,
-    pub read_address: Input<U<A>>,
-    pub read_word: Output<U<32>>,
     pub busy: Output<Bit>,
-    ram: Ram<U<32>, A>,
+    pub rewind: Input<Bit>,
+    pub read: Input<Bit>,
+    pub word: Output<U<32>>,
+    pub word_valid: Output<Bit>,
+    ram: RegisteredRam<U<32>, A, true>,
+    /// The node to be read, and the reads that are addressed, answered, and in the register of the RAM.
+    read_at: DataRegister<U<A>>,
+    s1_read: Register<Bit>,
+    s2_read: Register<Bit>,
+    s3_read: Register<Bit>,
     s1_op: Register<Bit>,
     s1_fresh: DataRegister<Bit>,
     s1_address: DataRegister<U<A>>,
     s1_max: DataRegister<U<16>>,
     s1_min: DataRegister<U<16>>,
     s2_op: Register<Bit>,
+    s2_fresh: DataRegister<Bit>,
     s2_address: DataRegister<U<A>>,
-    s2_word: DataRegister<U<32>>,
+    s2_max: DataRegister<U<16>>,
+    s2_min: DataRegister<U<16>>,
+    s3_op: Register<Bit>,
+    s3_fresh: DataRegister<Bit>,
+    s3_address: DataRegister<U<A>>,
+    s3_max: DataRegister<U<16>>,
+    s3_min: DataRegister<U<16>>,
+    /// The op before is of the same node; or one of the two before that, whose word is kept.
+    s3_follows: DataRegister<Bit>,
+    s3_repeats: DataRegister<Bit>,
+    s3_word: DataRegister<U<32>>,
+    s4_op: Register<Bit>,
+    s4_address: DataRegister<U<A>>,
+    s4_word: DataRegister<U<32>>,
+    s5_op: Register<Bit>,
+    s5_address: DataRegister<U<A>>,
+    s5_word: DataRegister<U<32>>,
+    new_word: Wire<U<32>>,
+    same_as_s4: Wire<Bit>,
+    same_as_s5: Wire<Bit>,
     old: Wire<U<32>>,
     old_max: Wire<U<16>>,
     old_min: Wire<U<16>>,
     new_max: Wire<U<16>>,
     new_min: Wire<U<16>>,
-    word: Wire<U<32>>,
 }
 
 impl<const A: usize> Logic for ExtremaMemory<A> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, ram);
-        dff_setup!(self, clock, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_address, s2_word);
-        self.read_word.next = self.ram.read_data.val();
-        self.busy.next = self.s1_op.q.val();
-        // s1_read
-        self.ram.enable.next = self.op.val() || self.read.val();
-        self.ram.read_address.next = self.read_address.val();
-        if self.op.val() {
-            self.ram.read_address.next = self.address.val();
+        dff_setup!(self, clock, read_at, s1_read, s2_read, s3_read, s1_op, s1_fresh, s1_address, s1_max, s1_min);
+        dff_setup!(self, clock, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max);
+        dff_setup!(self, clock, s3_min, s3_follows, s3_repeats, s3_word, s4_op, s4_address, s4_word, s5_op);
+        dff_setup!(self, clock, s5_address, s5_word);
+        // An op in s3 is written before the first read gets there.
+        self.busy.next = self.s1_op.q.val() || self.s2_op.q.val();
+        self.ram.enable.next = true;
+        self.ram.output_enable.next = true;
+        self.word.next = self.ram.read_data.val();
+        self.word_valid.next = self.s3_read.q.val();
+        self.s1_read.d.next = self.read.val();
+        self.s2_read.d.next = self.s1_read.q.val();
+        self.s3_read.d.next = self.s2_read.q.val();
+        if self.read.val() {
+            self.read_at.d.next = self.read_at.q.val() + 1;
         }
+        if self.rewind.val() {
+            self.read_at.d.next = 0.into();
+        }
+
+        // s1_address, s2_read
         self.s1_op.d.next = self.op.val();
-        if self.op.val() {
-            self.s1_fresh.d.next = self.fresh.val();
-            self.s1_address.d.next = self.address.val();
-            self.s1_max.d.next = self.max.val();
-            self.s1_min.d.next = self.min.val();
+        self.s1_fresh.d.next = self.fresh.val();
+        self.s1_address.d.next = self.address.val();
+        if self.read.val() {
+            self.s1_address.d.next = self.read_at.q.val();
         }
-        // s2_write
+        self.ram.read_address.next = self.s1_address.q.val();
+        self.s1_max.d.next = self.max.val();
+        self.s1_min.d.next = self.min.val();
+        self.s2_op.d.next = self.s1_op.q.val();
+        self.s2_fresh.d.next = self.s1_fresh.q.val();
+        self.s2_address.d.next = self.s1_address.q.val();
+        self.s2_max.d.next = self.s1_max.q.val();
+        self.s2_min.d.next = self.s1_min.q.val();
+        // s3_compare
+        self.s3_op.d.next = self.s2_op.q.val();
+        self.s3_fresh.d.next = self.s2_fresh.q.val();
+        self.s3_address.d.next = self.s2_address.q.val();
+        self.s3_max.d.next = self.s2_max.q.val();
+        self.s3_min.d.next = self.s2_min.q.val();
+        self.s3_follows.d.next = self.s3_op.q.val() && self.s3_address.q.val() == self.s2_address.q.val();
+        self.same_as_s4.next = self.s4_op.q.val() && self.s4_address.q.val() == self.s2_address.q.val();
+        self.same_as_s5.next = self.s5_op.q.val() && self.s5_address.q.val() == self.s2_address.q.val();
+        self.s3_repeats.d.next = self.same_as_s4.val() || self.same_as_s5.val();
+        self.s3_word.d.next = self.s5_word.q.val();
+        if self.same_as_s4.val() {
+            self.s3_word.d.next = self.s4_word.q.val();
+        }
         self.old.next = self.ram.read_data.val();
-        if self.s2_op.q.val() && self.s2_address.q.val() == self.s1_address.q.val() {
-            self.old.next = self.s2_word.q.val();
+        if self.s3_follows.q.val() {
+            self.old.next = self.s4_word.q.val();
+        } else if self.s3_repeats.q.val() {
+            self.old.next = self.s3_word.q.val();
         }
         self.old_max.next = self.old.val().get_bits::<16>(16);
         self.old_min.next = self.old.val().get_bits::<16>(0);
-        self.new_max.next = self.s1_max.q.val();
-        self.new_min.next = self.s1_min.q.val();
-        if !self.s1_fresh.q.val() {
-            if self.old_max.val() > self.s1_max.q.val() {
+        self.new_max.next = self.s3_max.q.val();
+        self.new_min.next = self.s3_min.q.val();
+        if !self.s3_fresh.q.val() {
+            if self.old_max.val() > self.s3_max.q.val() {
                 self.new_max.next = self.old_max.val();
             }
-            if self.old_min.val() < self.s1_min.q.val() {
+            if self.old_min.val() < self.s3_min.q.val() {
                 self.new_min.next = self.old_min.val();
             }
         }
-        self.word.next = (bit_cast_to::<U<32>>(self.new_max.val()) << 16) | bit_cast_to::<U<32>>(self.new_min.val());
-        self.ram.write_enable.next = self.s1_op.q.val();
-        self.ram.write_address.next = self.s1_address.q.val();
-        self.ram.write_data.next = self.word.val();
-        self.s2_op.d.next = self.s1_op.q.val();
-        if self.s1_op.q.val() {
-            self.s2_address.d.next = self.s1_address.q.val();
-            self.s2_word.d.next = self.word.val();
-        }
+        // s4_write, s5_written
+        self.s4_op.d.next = self.s3_op.q.val();
+        self.s4_address.d.next = self.s3_address.q.val();
+        self.new_word.next =
+            (bit_cast_to::<U<32>>(self.new_max.val()) << 16) | bit_cast_to::<U<32>>(self.new_min.val());
+        self.s4_word.d.next = self.new_word.val();
+        self.ram.write_enable.next = self.s3_op.q.val();
+        self.ram.write_address.next = self.s3_address.q.val();
+        self.ram.write_data.next = self.new_word.val();
+        self.s5_op.d.next = self.s4_op.q.val();
+        self.s5_address.d.next = self.s4_address.q.val();
+        self.s5_word.d.next = self.s4_word.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -95,4 +165,4 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
     }
 }
 
-latches! { [const A: usize] ExtremaMemory<A>: ram, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_address, s2_word }
+latches! { [const A: usize] ExtremaMemory<A>: ram, read_at, s1_read, s2_read, s3_read, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max, s3_min, s3_follows, s3_repeats, s3_word, s4_op, s4_address, s4_word, s5_op, s5_address, s5_word }

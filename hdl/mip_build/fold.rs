@@ -40,6 +40,20 @@ pub struct MipFold<const M: usize, const A: usize> {
     pub op_address: Output<U<A>>,
     pub op_max: Output<U<16>>,
     pub op_min: Output<U<16>>,
+    // s1_texel: the texel, and what it does.
+    s1_valid: Register<Bit>,
+    s1_max: DataRegister<U<16>>,
+    s1_min: DataRegister<U<16>>,
+    s1_half: DataRegister<U<A>>,
+    s1_odd_column: DataRegister<Bit>,
+    s1_last_column: DataRegister<Bit>,
+    s1_odd_row: DataRegister<Bit>,
+    s1_first_row: DataRegister<Bit>,
+    s1_last_row: DataRegister<Bit>,
+    /// It belongs to the node of the texel before it, too; it finishes a node.
+    s1_joins: DataRegister<Bit>,
+    s1_emits: DataRegister<Bit>,
+    // s2_node
     /// The texels of the row that belong to the next node.
     open_max: DataRegister<U<16>>,
     open_min: DataRegister<U<16>>,
@@ -48,6 +62,8 @@ pub struct MipFold<const M: usize, const A: usize> {
     // A finished node, and behind the last one of an even row the tail: the node that the last texel belongs to, too.
     pending: Register<Bit>,
     step: Register<U<2>>,
+    /// The pending node, or its tail, takes another cycle behind this one.
+    blocked: Register<Bit>,
     node_max: DataRegister<U<16>>,
     node_min: DataRegister<U<16>>,
     tail_max: DataRegister<U<16>>,
@@ -62,14 +78,16 @@ pub struct MipFold<const M: usize, const A: usize> {
     has_far: DataRegister<Bit>,
     has_tail: DataRegister<Bit>,
     odd_column: Wire<Bit>,
-    emits: Wire<Bit>,
-    ends: Wire<Bit>,
     goes: Wire<Bit>,
     take: Wire<Bit>,
     joined_max: Wire<U<16>>,
     joined_min: Wire<U<16>>,
-    half: Wire<U<A>>,
     row_behind: Wire<U<A>>,
+    pending_behind: Wire<Bit>,
+    step_behind: Wire<U<2>>,
+    far_behind: Wire<Bit>,
+    tail_behind: Wire<Bit>,
+    ends_behind: Wire<Bit>,
     op_row: Wire<U<A>>,
     op_column: Wire<U<A>>,
 }
@@ -79,18 +97,27 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
     fn update(&mut self) {
         dff_setup!(self, clock, open_max, open_min, row, pending, step, node_max, node_min, tail_max, tail_min);
         dff_setup!(self, clock, node_column, tail_column, near_row, far_row, near_fresh, far_fresh, tail_turns);
-        dff_setup!(self, clock, has_far, has_tail);
+        dff_setup!(self, clock, has_far, has_tail, blocked, s1_valid, s1_max, s1_min, s1_half, s1_odd_column);
+        dff_setup!(self, clock, s1_last_column, s1_odd_row, s1_first_row, s1_last_row, s1_joins, s1_emits);
+        // s1_texel
+        self.goes.next = !(self.s1_emits.q.val() && self.blocked.q.val());
+        self.take.next = self.s1_valid.q.val() && self.goes.val();
+        self.ready.next = !self.s1_valid.q.val() || self.goes.val();
+        self.idle.next = !self.s1_valid.q.val() && !self.pending.q.val();
         self.odd_column.next = self.column.val().get_bit(0);
-        self.emits.next = self.odd_column.val() || self.last_column.val();
-        // Steps: 0 node, 1 node in the far row, 2 tail, 3 tail in the far row.
-        self.ends.next = (self.step.q.val() == 0 && !self.has_far.q.val() && !self.has_tail.q.val())
-            || (self.step.q.val() == 1 && !self.has_tail.q.val())
-            || (self.step.q.val() == 2 && !self.has_far.q.val())
-            || self.step.q.val() == 3;
-        self.goes.next = !self.pending.q.val() || self.ends.val() || !self.emits.val();
-        self.ready.next = self.goes.val();
-        self.take.next = self.valid.val() && self.goes.val();
-        self.idle.next = !self.pending.q.val();
+        if !self.s1_valid.q.val() || self.goes.val() {
+            self.s1_valid.d.next = self.valid.val();
+            self.s1_max.d.next = self.max.val();
+            self.s1_min.d.next = self.min.val();
+            self.s1_half.d.next = bit_cast_to::<U<A>>(self.column.val() >> 1);
+            self.s1_odd_column.d.next = self.odd_column.val();
+            self.s1_last_column.d.next = self.last_column.val();
+            self.s1_odd_row.d.next = self.odd_row.val();
+            self.s1_first_row.d.next = self.first_row.val();
+            self.s1_last_row.d.next = self.last_row.val();
+            self.s1_joins.d.next = !self.first_column.val() && (self.odd_column.val() || !self.cells.val());
+            self.s1_emits.d.next = self.odd_column.val() || self.last_column.val();
+        }
 
         self.op.next = self.pending.q.val();
         self.op_max.next = self.node_max.q.val();
@@ -114,68 +141,80 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
         }
         self.op_address.next = self.op_row.val() + self.op_column.val();
 
-        self.joined_max.next = self.max.val();
-        self.joined_min.next = self.min.val();
-        if !self.first_column.val() && (self.odd_column.val() || !self.cells.val()) {
-            if self.open_max.q.val() > self.max.val() {
+        // s2_node
+        self.joined_max.next = self.s1_max.q.val();
+        self.joined_min.next = self.s1_min.q.val();
+        if self.s1_joins.q.val() {
+            if self.open_max.q.val() > self.s1_max.q.val() {
                 self.joined_max.next = self.open_max.q.val();
             }
-            if self.open_min.q.val() < self.min.val() {
+            if self.open_min.q.val() < self.s1_min.q.val() {
                 self.joined_min.next = self.open_min.q.val();
             }
         }
-        self.half.next = bit_cast_to::<U<A>>(self.column.val() >> 1);
         self.row_behind.next = self.row.q.val() + bit_cast_to::<U<A>>(self.width_above.val());
 
-        if self.pending.q.val() {
-            self.step.d.next = self.step.q.val() + 1;
+        // Steps: 0 node, 1 node in the far row, 2 tail, 3 tail in the far row.
+        self.pending_behind.next = self.blocked.q.val();
+        self.step_behind.next = 0.into();
+        if self.blocked.q.val() {
+            self.step_behind.next = self.step.q.val() + 1;
             if self.step.q.val() == 0 && !self.has_far.q.val() {
-                self.step.d.next = 2.into();
+                self.step_behind.next = 2.into();
             }
         }
-        if self.pending.q.val() && self.ends.val() {
-            self.pending.d.next = false;
-            self.step.d.next = 0.into();
-        }
+        self.far_behind.next = self.has_far.q.val();
+        self.tail_behind.next = self.has_tail.q.val();
         if self.take.val() {
             self.open_max.d.next = self.joined_max.val();
             self.open_min.d.next = self.joined_min.val();
-            if self.odd_column.val() && !self.cells.val() {
-                self.open_max.d.next = self.max.val();
-                self.open_min.d.next = self.min.val();
+            if self.s1_odd_column.q.val() && !self.cells.val() {
+                self.open_max.d.next = self.s1_max.q.val();
+                self.open_min.d.next = self.s1_min.q.val();
             }
-            if self.emits.val() {
-                self.pending.d.next = true;
-                self.step.d.next = 0.into();
+            if self.s1_emits.q.val() {
+                self.pending_behind.next = true;
+                self.step_behind.next = 0.into();
+                self.far_behind.next = self.s1_odd_row.q.val() && !self.cells.val();
+                self.tail_behind.next = self.s1_last_column.q.val() && self.s1_odd_column.q.val() && !self.cells.val();
                 self.node_max.d.next = self.joined_max.val();
                 self.node_min.d.next = self.joined_min.val();
-                self.tail_max.d.next = self.max.val();
-                self.tail_min.d.next = self.min.val();
-                self.node_column.d.next = self.half.val();
-                self.tail_column.d.next = self.half.val() + 1;
+                self.tail_max.d.next = self.s1_max.q.val();
+                self.tail_min.d.next = self.s1_min.q.val();
+                self.node_column.d.next = self.s1_half.q.val();
+                self.tail_column.d.next = self.s1_half.q.val() + 1;
                 if self.repeat_u.val() {
                     self.tail_column.d.next = 0.into();
                 }
                 self.tail_turns.d.next = self.repeat_u.val();
                 self.near_row.d.next = self.row.q.val();
-                self.near_fresh.d.next = self.first_row.val() || (self.cells.val() && !self.odd_row.val());
+                self.near_fresh.d.next = self.s1_first_row.q.val() || (self.cells.val() && !self.s1_odd_row.q.val());
                 self.far_row.d.next = self.row_behind.val();
                 self.far_fresh.d.next = true;
-                if self.last_row.val() && self.repeat_v.val() {
+                if self.s1_last_row.q.val() && self.repeat_v.val() {
                     self.far_row.d.next = 0.into();
                     self.far_fresh.d.next = false;
                 }
-                self.has_far.d.next = self.odd_row.val() && !self.cells.val();
-                self.has_tail.d.next = self.last_column.val() && self.odd_column.val() && !self.cells.val();
             }
-            if self.last_column.val() && self.odd_row.val() {
+            if self.s1_last_column.q.val() && self.s1_odd_row.q.val() {
                 self.row.d.next = self.row_behind.val();
             }
         }
+        self.ends_behind.next = (self.step_behind.val() == 0 && !self.far_behind.val() && !self.tail_behind.val())
+            || (self.step_behind.val() == 1 && !self.tail_behind.val())
+            || (self.step_behind.val() == 2 && !self.far_behind.val())
+            || self.step_behind.val() == 3;
+        self.pending.d.next = self.pending_behind.val();
+        self.step.d.next = self.step_behind.val();
+        self.has_far.d.next = self.far_behind.val();
+        self.has_tail.d.next = self.tail_behind.val();
+        self.blocked.d.next = self.pending_behind.val() && !self.ends_behind.val();
         if self.clear.val() {
             self.row.d.next = 0.into();
+            self.s1_valid.d.next = false;
             self.pending.d.next = false;
             self.step.d.next = 0.into();
+            self.blocked.d.next = false;
         }
     }
 
@@ -184,4 +223,4 @@ impl<const M: usize, const A: usize> Logic for MipFold<M, A> {
     }
 }
 
-latches! { [const M: usize, const A: usize] MipFold<M, A>: open_max, open_min, row, pending, step, node_max, node_min, tail_max, tail_min, node_column, tail_column, near_row, far_row, near_fresh, far_fresh, tail_turns, has_far, has_tail }
+latches! { [const M: usize, const A: usize] MipFold<M, A>: s1_valid, s1_max, s1_min, s1_half, s1_odd_column, s1_last_column, s1_odd_row, s1_first_row, s1_last_row, s1_joins, s1_emits, open_max, open_min, row, pending, step, blocked, node_max, node_min, tail_max, tail_min, node_column, tail_column, near_row, far_row, near_fresh, far_fresh, tail_turns, has_far, has_tail }
