@@ -7,7 +7,7 @@
 //! nearest: a and b rounded to 0 or 1                            word base[L] + (j >> 1) * pitch[L] + (i >> 1)
 //! ```
 //!
-//! | port       | format      | meaning |   Latency 20, interval 1
+//! | port       | format      | meaning |   Latency 21, interval 1
 //! | in_kind    | 2 bits      | 0 size of a level, 1 load of a sample, 2 fetch   Golden: models::mip_fetch::MipFetch
 //! | in_level   | 4 bits      | levels are sized in order; a fetch beyond the last one reads the last one
 //! | in_u, in_v | UQ13.16     | texels of level 0 | fetch   Error 1/2 unit of UQ16.8
@@ -114,23 +114,24 @@ pub struct MipFetch<const M: usize, const A: usize> {
     s6_pitch: DataRegister<U<M>>,
     s6_value: DataRegister<U<16>>,
     s6_blank: DataRegister<Bit>,
-    // s7_product to s12_texel: the banks. Weights a and b travel along.
+    // s7_product to s13_texel: the banks. Weights a and b travel along.
     s7_weights: DataRegister<Lanes<2, 14>>,
     s8_weights: DataRegister<Lanes<2, 14>>,
     s9_weights: DataRegister<Lanes<2, 14>>,
     s10_weights: DataRegister<Lanes<2, 14>>,
     s11_weights: DataRegister<Lanes<2, 14>>,
     s12_weights: DataRegister<Lanes<2, 14>>,
+    s13_weights: DataRegister<Lanes<2, 14>>,
     /// Loads at s3 to s8, from the lowest bit.
     loading: Register<U<6>>,
-    /// Fetches at s3 to s19.
-    sending: Register<U<17>>,
-    /// Errors at s3 to s18.
-    failing: Register<U<16>>,
+    /// Fetches at s3 to s20.
+    sending: Register<U<18>>,
+    /// Errors at s3 to s19.
+    failing: Register<U<17>>,
     failed: Register<Bit>,
     /// The pipeline moves in this cycle: what leaves it finds room. A register, as everything waits for it.
     moves: Register<Bit>,
-    // s20: the value that is sent, and the next one where it waits, each with the errors up to it.
+    // s21: the value that is sent, and the next one where it waits, each with the errors up to it.
     sent_valid: Register<Bit>,
     sent_value: DataRegister<U<24>>,
     sent_failed: Register<Bit>,
@@ -146,7 +147,7 @@ pub struct MipFetch<const M: usize, const A: usize> {
     level: Wire<U<4>>,
     outside: Wire<Bit>,
     beyond: Wire<Bit>,
-    failing_behind: Wire<U<16>>,
+    failing_behind: Wire<U<17>>,
     weights_u: Wire<Lanes<2, 14>>,
     s6_weights: Wire<Lanes<2, 14>>,
 }
@@ -229,6 +230,7 @@ impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
             s10_weights: DataRegister::default(),
             s11_weights: DataRegister::default(),
             s12_weights: DataRegister::default(),
+            s13_weights: DataRegister::default(),
             loading: Register::default(),
             sending: Register::default(),
             failing: Register::default(),
@@ -258,7 +260,7 @@ impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
 
 impl<const M: usize, const A: usize> MipFetch<M, A> {
     /// Cycles from a fetch to its value.
-    pub const LATENCY: usize = 20;
+    pub const LATENCY: usize = 21;
 }
 
 impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
@@ -282,7 +284,19 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             s10_weights,
             s11_weights
         );
-        dff_setup!(self, clock, loading, sending, failing, failed, s12_weights, moves, sent_valid, sent_value);
+        dff_setup!(
+            self,
+            clock,
+            loading,
+            sending,
+            failing,
+            failed,
+            s12_weights,
+            s13_weights,
+            moves,
+            sent_valid,
+            sent_value
+        );
         dff_setup!(self, clock, sent_failed, spare_valid, spare_value, spare_failed);
 
         // The whole pipeline moves, or stands.
@@ -387,7 +401,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.weights_u.next = bit_cast_to::<Lanes<2, 14>>(self.axis_u.weight.val());
         self.s6_weights.next = self.weights_u.val().replace_bit(1, self.axis_v.weight.val());
 
-        // s7_product to s12_texel: the banks.
+        // s7_product to s13_texel: the banks.
         self.banks.base.next = self.s6_base.q.val();
         self.banks.pitch.next = self.s6_pitch.q.val();
         self.banks.even_column.next = self.axis_u.even.val();
@@ -404,24 +418,24 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.beyond.next =
             (self.sending.q.val().get_bit(5) || self.loading.q.val().get_bit(5)) && self.banks.beyond.val();
 
-        // s13_difference to s19_value: the interpolation.
+        // s14_difference to s20_value: the interpolation.
         self.bilinear.t00.next = self.banks.t00.val();
         self.bilinear.t10.next = self.banks.t10.val();
         self.bilinear.t01.next = self.banks.t01.val();
         self.bilinear.t11.next = self.banks.t11.val();
-        self.bilinear.a.next = self.s12_weights.q.val().get_bit(0);
-        self.bilinear.b.next = self.s12_weights.q.val().get_bit(1);
+        self.bilinear.a.next = self.s13_weights.q.val().get_bit(0);
+        self.bilinear.b.next = self.s13_weights.q.val().get_bit(1);
 
         // An axis finds out at s6 what fails, a bank at s8.
         self.failing_behind.next = (self.failing.q.val() << 1)
-            | bit_cast_to::<U<16>>(self.s2_fails.q.val())
-            | (bit_cast_to::<U<16>>(self.outside.val()) << 4)
-            | (bit_cast_to::<U<16>>(self.beyond.val()) << 6);
+            | bit_cast_to::<U<17>>(self.s2_fails.q.val())
+            | (bit_cast_to::<U<17>>(self.outside.val()) << 4)
+            | (bit_cast_to::<U<17>>(self.beyond.val()) << 6);
         if self.go.val() {
             self.loading.d.next = (self.loading.q.val() << 1) | bit_cast_to::<U<6>>(self.s2_load.q.val());
-            self.sending.d.next = (self.sending.q.val() << 1) | bit_cast_to::<U<17>>(self.s2_sends.q.val());
+            self.sending.d.next = (self.sending.q.val() << 1) | bit_cast_to::<U<18>>(self.s2_sends.q.val());
             self.failing.d.next = self.failing_behind.val();
-            if self.failing.q.val().get_bit(15) {
+            if self.failing.q.val().get_bit(16) {
                 self.failed.d.next = true;
             }
             self.s4_base.d.next = self.levels.base.val();
@@ -442,10 +456,11 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             self.s10_weights.d.next = self.s9_weights.q.val();
             self.s11_weights.d.next = self.s10_weights.q.val();
             self.s12_weights.d.next = self.s11_weights.q.val();
+            self.s13_weights.d.next = self.s12_weights.q.val();
         }
 
-        // s20: at most one more value arrives while the first one waits.
-        self.arrives.next = self.go.val() && self.sending.q.val().get_bit(16);
+        // s21: at most one more value arrives while the first one waits.
+        self.arrives.next = self.go.val() && self.sending.q.val().get_bit(17);
         self.out_free.next = !self.sent_valid.q.val() || self.out_ready.val();
         self.spare_behind.next = !self.out_free.val() && (self.spare_valid.q.val() || self.arrives.val());
         self.spare_valid.d.next = self.spare_behind.val();
@@ -476,6 +491,6 @@ ports! {
             in_pitch, in_repeat_u, in_repeat_v, out_ready;
         outputs: in_ready, out_valid, out_value, error;
         blocks: levels, axis_u, axis_v, banks, bilinear;
-        state: count, levels, axis_u, axis_v, banks, bilinear, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_value, s3_blank, s4_base, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base, s6_pitch, s6_value, s6_blank, s7_weights, s8_weights, s9_weights, s10_weights, s11_weights, loading, sending, failing, failed, s12_weights, moves, sent_valid, sent_value, sent_failed, spare_valid, spare_value, spare_failed
+        state: count, levels, axis_u, axis_v, banks, bilinear, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_value, s3_blank, s4_base, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base, s6_pitch, s6_value, s6_blank, s7_weights, s8_weights, s9_weights, s10_weights, s11_weights, loading, sending, failing, failed, s12_weights, s13_weights, moves, sent_valid, sent_value, sent_failed, spare_valid, spare_value, spare_failed
     }
 }

@@ -235,7 +235,7 @@ impl Binding for MipFetchBinding {
         "reads a texel of a level, nearest or bilinear, from four banks"
     }
     fn latency(&self) -> &'static str {
-        "20"
+        "21"
     }
     fn interval(&self) -> &'static str {
         "1"

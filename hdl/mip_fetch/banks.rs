@@ -3,13 +3,14 @@
 //!
 //! bank = (j & 1) * 2 + (i & 1), word = base + (j >> 1) * pitch + (i >> 1)
 //!
-//! | stage        | what it does                               |   Latency 6, interval 1; holds while `go` is low
+//! | stage        | what it does                               |   Latency 7, interval 1; holds while `go` is low
 //! | s1_product   | rows times pitch, columns plus base        |   Golden: models::mip_fetch   Error 0
 //! | s2_word      | words of the four banks                    |
 //! | s3_check     | words compared with the depth; a load picks its bank |
 //! | s4_read      | the memories, read or written              |
 //! | s5_register  | the register behind each memory            |
-//! | s6_texel     | banks to texels; what lies beyond the memory, and every texel of a `blank` fetch, is zero |
+//! | s6_data      | half of the way from there; what lies beyond the memory, and every texel of a `blank` fetch, is zero |
+//! | s7_texel     | banks to texels                            |
 //!
 //! `beyond` comes with s2_word. A load gives all banks the same word, and its parity picks the bank. The block RAMs lie
 //! far apart, so what goes to all of them comes from registers.
@@ -69,10 +70,15 @@ pub struct MipBanks<const M: usize, const A: usize> {
     s4_zero: DataRegister<U<4>>,
     /// Parities of the first and the second column, and of the first and the second row.
     s5_parities: DataRegister<U<4>>,
-    s6_t00: DataRegister<S<17>>,
-    s6_t10: DataRegister<S<17>>,
-    s6_t01: DataRegister<S<17>>,
-    s6_t11: DataRegister<S<17>>,
+    s6_parities: DataRegister<U<4>>,
+    s6_data_0: DataRegister<S<17>>,
+    s6_data_1: DataRegister<S<17>>,
+    s6_data_2: DataRegister<S<17>>,
+    s6_data_3: DataRegister<S<17>>,
+    s7_t00: DataRegister<S<17>>,
+    s7_t10: DataRegister<S<17>>,
+    s7_t01: DataRegister<S<17>>,
+    s7_t11: DataRegister<S<17>>,
     /// The words of the banks, as far as they fit an address.
     fit_0: Wire<U<28>>,
     fit_1: Wire<U<28>>,
@@ -101,8 +107,20 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
         clock!(self, clock, s1_even_rows, s1_odd_rows, bank_0, bank_1, bank_2, bank_3);
         dff_setup!(self, clock, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data);
         dff_setup!(self, clock, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data);
-        dff_setup!(self, clock, s3_zero, s3_flags, s4_zero, s5_parities, s6_t00, s6_t10, s6_t01, s6_t11);
-        dff_setup!(self, clock, s3_address_0, s3_address_1, s3_address_2, s3_address_3, s4_flags, s5_zero);
+        dff_setup!(self, clock, s3_zero, s3_flags, s4_zero, s5_parities, s7_t00, s7_t10, s7_t01, s7_t11);
+        dff_setup!(
+            self,
+            clock,
+            s3_address_0,
+            s3_address_1,
+            s3_address_2,
+            s3_address_3,
+            s4_flags,
+            s5_zero,
+            s6_parities,
+            s6_data_0
+        );
+        dff_setup!(self, clock, s6_data_1, s6_data_2, s6_data_3);
 
         // s1_product: 13 x 13 bits at most; the sums fit 28 bits with a base of up to 27.
         self.s1_even_rows.enable.next = self.go.val();
@@ -171,7 +189,7 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
         self.bank_3.write_enable.next =
             self.writes.val() && self.s2_flags.q.val().get_bit(0) && self.s2_flags.q.val().get_bit(1);
 
-        // s5_register, s6_texel
+        // s5_register to s7_texel
         self.data_0.next = bit_cast_to::<S<17>>(self.bank_0.read_data.val());
         if self.s5_zero.q.val().get_bit(0) {
             self.data_0.next = 0.into();
@@ -189,17 +207,17 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
             self.data_3.next = 0.into();
         }
         // In the even and in the odd row: the first and the second column's texel.
-        self.even_first.next = self.data_0.val();
-        self.odd_first.next = self.data_2.val();
-        if self.s5_parities.q.val().get_bit(0) {
-            self.even_first.next = self.data_1.val();
-            self.odd_first.next = self.data_3.val();
+        self.even_first.next = self.s6_data_0.q.val();
+        self.odd_first.next = self.s6_data_2.q.val();
+        if self.s6_parities.q.val().get_bit(0) {
+            self.even_first.next = self.s6_data_1.q.val();
+            self.odd_first.next = self.s6_data_3.q.val();
         }
-        self.even_second.next = self.data_0.val();
-        self.odd_second.next = self.data_2.val();
-        if self.s5_parities.q.val().get_bit(1) {
-            self.even_second.next = self.data_1.val();
-            self.odd_second.next = self.data_3.val();
+        self.even_second.next = self.s6_data_0.q.val();
+        self.odd_second.next = self.s6_data_2.q.val();
+        if self.s6_parities.q.val().get_bit(1) {
+            self.even_second.next = self.s6_data_1.q.val();
+            self.odd_second.next = self.s6_data_3.q.val();
         }
         // The second neighbour has the other parity, unless it is the first.
         self.second_column.next = self.s4_flags.q.val().get_bit(0) == self.s4_flags.q.val().get_bit(2);
@@ -221,27 +239,32 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
             self.s4_zero.d.next = self.s3_zero.q.val();
             self.s4_flags.d.next = self.s3_flags.q.val();
             self.s5_zero.d.next = self.s4_zero.q.val();
+            self.s6_parities.d.next = self.s5_parities.q.val();
+            self.s6_data_0.d.next = self.data_0.val();
+            self.s6_data_1.d.next = self.data_1.val();
+            self.s6_data_2.d.next = self.data_2.val();
+            self.s6_data_3.d.next = self.data_3.val();
             self.s5_parities.d.next = bit_cast_to::<U<4>>(self.s4_flags.q.val().get_bit(0))
                 | (bit_cast_to::<U<4>>(self.second_column.val()) << 1)
                 | (bit_cast_to::<U<4>>(self.s4_flags.q.val().get_bit(1)) << 2)
                 | (bit_cast_to::<U<4>>(self.second_row.val()) << 3);
-            self.s6_t00.d.next = self.even_first.val();
-            self.s6_t10.d.next = self.even_second.val();
-            if self.s5_parities.q.val().get_bit(2) {
-                self.s6_t00.d.next = self.odd_first.val();
-                self.s6_t10.d.next = self.odd_second.val();
+            self.s7_t00.d.next = self.even_first.val();
+            self.s7_t10.d.next = self.even_second.val();
+            if self.s6_parities.q.val().get_bit(2) {
+                self.s7_t00.d.next = self.odd_first.val();
+                self.s7_t10.d.next = self.odd_second.val();
             }
-            self.s6_t01.d.next = self.even_first.val();
-            self.s6_t11.d.next = self.even_second.val();
-            if self.s5_parities.q.val().get_bit(3) {
-                self.s6_t01.d.next = self.odd_first.val();
-                self.s6_t11.d.next = self.odd_second.val();
+            self.s7_t01.d.next = self.even_first.val();
+            self.s7_t11.d.next = self.even_second.val();
+            if self.s6_parities.q.val().get_bit(3) {
+                self.s7_t01.d.next = self.odd_first.val();
+                self.s7_t11.d.next = self.odd_second.val();
             }
         }
-        self.t00.next = self.s6_t00.q.val();
-        self.t10.next = self.s6_t10.q.val();
-        self.t01.next = self.s6_t01.q.val();
-        self.t11.next = self.s6_t11.q.val();
+        self.t00.next = self.s7_t00.q.val();
+        self.t10.next = self.s7_t10.q.val();
+        self.t01.next = self.s7_t01.q.val();
+        self.t11.next = self.s7_t11.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -249,4 +272,4 @@ impl<const M: usize, const A: usize> Logic for MipBanks<M, A> {
     }
 }
 
-latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data, bank_0, bank_1, bank_2, bank_3, s3_address_0, s3_address_1, s3_address_2, s3_address_3, s3_zero, s3_flags, s4_flags, s4_zero, s5_zero, s5_parities, s6_t00, s6_t10, s6_t01, s6_t11 }
+latches! { [const M: usize, const A: usize] MipBanks<M, A>: s1_even_rows, s1_odd_rows, s1_even_column, s1_odd_column, s1_flags, s1_blank, s1_write, s1_data, s2_word_0, s2_word_1, s2_word_2, s2_word_3, s2_flags, s2_blank, s2_write, s2_data, bank_0, bank_1, bank_2, bank_3, s3_address_0, s3_address_1, s3_address_2, s3_address_3, s3_zero, s3_flags, s4_flags, s4_zero, s5_zero, s5_parities, s6_parities, s6_data_0, s6_data_1, s6_data_2, s6_data_3, s7_t00, s7_t10, s7_t01, s7_t11 }

@@ -98,9 +98,9 @@ pub const CONTRACTS: [Contract; 10] = [
         exchange: Some(Exchange {
             asks: "in_kind >= 2",
             answers: "1'b1",
-            under_way: 21,
-            silence: Some(20),
-            cycles: 30,
+            under_way: 22,
+            silence: Some(21),
+            cycles: 31,
             cut: true,
         }),
         reach: 28,
