@@ -106,7 +106,7 @@ impl Binding for SatBuildBinding {
         "builds the summed-area table of a map"
     }
     fn latency(&self) -> &'static str {
-        "2"
+        "3"
     }
     fn interval(&self) -> &'static str {
         "1"
