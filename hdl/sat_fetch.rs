@@ -6,7 +6,7 @@
 //! word(x, y) = (y - 1) * width + x - 1                                     slide: moved inside
 //! ```
 //!
-//! | port       | format      | meaning |   Latency 9, interval 4, 1 for loads and sizes
+//! | port       | format      | meaning |   Latency 18, interval 4, 1 for loads and sizes
 //! | in_kind    | 2 bits      | 0 size of a map, 1 load of an entry, 2 or 3 fetch   Golden: models::sat_fetch::SatFetch
 //! | in_width, in_height | unsigned M | of the map, at least one | size   Error 0
 //! | in_slide   | Bit         | rectangles slide into the map; otherwise they are cut | size
@@ -53,15 +53,34 @@ pub struct SatFetch<const M: usize, const X: usize, const R: usize, const T: usi
     corners: SatCorners<M, X, R, T, B>,
     /// Entry of the rectangle that is read.
     phase: Register<U<2>>,
-    s5_table: Ram<U<B>, T>,
-    s5_sends: Register<Bit>,
-    s5_phase: DataRegister<U<2>>,
-    s5_zero: DataRegister<Bit>,
-    s5_area: DataRegister<U<R>>,
-    s5_fails: Register<Bit>,
-    s6_sends: Register<Bit>,
-    s6_sum: DataRegister<U<B>>,
-    s6_area: DataRegister<U<R>>,
+    s11_sends: Register<Bit>,
+    s11_load: Register<Bit>,
+    s11_fails: Register<Bit>,
+    s11_phase: DataRegister<U<2>>,
+    s11_zero: DataRegister<Bit>,
+    s11_word: DataRegister<U<T>>,
+    s11_value: DataRegister<U<B>>,
+    s11_area: DataRegister<U<R>>,
+    s12_table: Ram<U<B>, T>,
+    s12_sends: Register<Bit>,
+    s12_fails: Register<Bit>,
+    s12_phase: DataRegister<U<2>>,
+    s12_zero: DataRegister<Bit>,
+    s12_area: DataRegister<U<R>>,
+    s13_sends: Register<Bit>,
+    s13_fails: Register<Bit>,
+    s13_phase: DataRegister<U<2>>,
+    s13_zero: DataRegister<Bit>,
+    s13_read: DataRegister<U<B>>,
+    s13_area: DataRegister<U<R>>,
+    s14_sends: Register<Bit>,
+    s14_fails: Register<Bit>,
+    s14_phase: DataRegister<U<2>>,
+    s14_entry: DataRegister<U<B>>,
+    s14_area: DataRegister<U<R>>,
+    s15_sends: Register<Bit>,
+    s15_sum: DataRegister<U<B>>,
+    s15_area: DataRegister<U<R>>,
     failed: Register<Bit>,
     moves: Wire<Bit>,
     go: Wire<Bit>,
@@ -72,7 +91,7 @@ pub struct SatFetch<const M: usize, const X: usize, const R: usize, const T: usi
 
 impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> SatFetch<M, X, R, T, B> {
     /// Cycles from a fetch to its sum.
-    pub const LATENCY: usize = 9;
+    pub const LATENCY: usize = 18;
     /// Cycles between two fetches.
     pub const INTERVAL: usize = 4;
 }
@@ -80,21 +99,22 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
 impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> Logic for SatFetch<M, X, R, T, B> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, corners, s5_table);
-        dff_setup!(
-            self, clock, phase, s5_sends, s5_phase, s5_zero, s5_area, s5_fails, s6_sends, s6_sum, s6_area, failed
-        );
+        clock!(self, clock, corners, s12_table);
+        dff_setup!(self, clock, phase, s11_sends, s11_load, s11_fails, s11_phase, s11_zero, s11_word, s11_value);
+        dff_setup!(self, clock, s11_area, s12_sends, s12_fails, s12_phase, s12_zero, s12_area, s13_sends, s13_fails);
+        dff_setup!(self, clock, s13_phase, s13_zero, s13_read, s13_area, s14_sends, s14_fails, s14_phase, s14_entry);
+        dff_setup!(self, clock, s14_area, s15_sends, s15_sum, s15_area, failed);
 
         // The table's side stands while the result is not taken, and the corners until their fourth entry is read.
-        self.moves.next = !self.s6_sends.q.val() || self.out_ready.val();
+        self.moves.next = !self.s15_sends.q.val() || self.out_ready.val();
         self.go.next = self.moves.val() && (!self.corners.fetch.val() || self.phase.q.val() == 3);
         self.in_ready.next = self.go.val();
-        self.out_valid.next = self.s6_sends.q.val();
-        self.out_sum.next = self.s6_sum.q.val();
-        self.out_area.next = self.s6_area.q.val();
+        self.out_valid.next = self.s15_sends.q.val();
+        self.out_sum.next = self.s15_sum.q.val();
+        self.out_area.next = self.s15_area.q.val();
         self.error.next = self.failed.q.val();
 
-        // s1_beat to s4_words
+        // s1_beat to s10_inside
         self.corners.go.next = self.go.val();
         self.corners.valid.next = self.in_valid.val();
         self.corners.kind.next = self.in_kind.val();
@@ -107,7 +127,7 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
         self.corners.rows.next = self.in_b.val();
         self.corners.value.next = self.in_sum.val();
 
-        // s5_table
+        // s11_word: one of the four.
         if self.moves.val() && self.corners.fetch.val() {
             self.phase.d.next = self.phase.q.val() + 1;
         }
@@ -125,38 +145,70 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
             self.word.next = self.corners.word_3.val();
             self.zero.next = self.corners.zero.val().get_bit(3);
         }
-        self.s5_table.enable.next = self.moves.val();
-        self.s5_table.read_address.next = self.word.val();
-        self.s5_table.write_enable.next = self.moves.val() && self.corners.load.val();
-        self.s5_table.write_address.next = self.word.val();
-        self.s5_table.write_data.next = self.corners.load_value.val();
         if self.moves.val() {
-            self.s5_sends.d.next = self.corners.fetch.val();
-            self.s5_phase.d.next = self.phase.q.val();
-            self.s5_zero.d.next = self.zero.val();
-            self.s5_area.d.next = self.corners.area.val();
-            self.s5_fails.d.next = self.go.val() && self.corners.fails.val();
+            self.s11_sends.d.next = self.corners.fetch.val();
+            self.s11_load.d.next = self.corners.load.val();
+            self.s11_fails.d.next = self.go.val() && self.corners.fails.val();
+            self.s11_phase.d.next = self.phase.q.val();
+            self.s11_zero.d.next = self.zero.val();
+            self.s11_word.d.next = self.word.val();
+            self.s11_value.d.next = self.corners.load_value.val();
+            self.s11_area.d.next = self.corners.area.val();
         }
 
-        // s6_sum: wraps at 2^B by intent.
-        self.entry.next = self.s5_table.read_data.val();
-        if self.s5_zero.q.val() {
+        // s12_table
+        // Not read while it is written, so that synthesis sees that the ports never meet.
+        self.s12_table.enable.next = self.moves.val() && !self.s11_load.q.val();
+        self.s12_table.read_address.next = self.s11_word.q.val();
+        self.s12_table.write_enable.next = self.moves.val() && self.s11_load.q.val();
+        self.s12_table.write_address.next = self.s11_word.q.val();
+        self.s12_table.write_data.next = self.s11_value.q.val();
+        if self.moves.val() {
+            self.s12_sends.d.next = self.s11_sends.q.val();
+            self.s12_fails.d.next = self.s11_fails.q.val();
+            self.s12_phase.d.next = self.s11_phase.q.val();
+            self.s12_zero.d.next = self.s11_zero.q.val();
+            self.s12_area.d.next = self.s11_area.q.val();
+        }
+
+        // s13_read: block RAM sends late in its cycle, and from far away.
+        if self.moves.val() {
+            self.s13_sends.d.next = self.s12_sends.q.val();
+            self.s13_fails.d.next = self.s12_fails.q.val();
+            self.s13_phase.d.next = self.s12_phase.q.val();
+            self.s13_zero.d.next = self.s12_zero.q.val();
+            self.s13_read.d.next = self.s12_table.read_data.val();
+            self.s13_area.d.next = self.s12_area.q.val();
+        }
+
+        // s14_entry
+        self.entry.next = self.s13_read.q.val();
+        if self.s13_zero.q.val() {
             self.entry.next = 0.into();
         }
         if self.moves.val() {
-            self.s6_sends.d.next = self.s5_sends.q.val() && self.s5_phase.q.val() == 3;
-            if self.s5_fails.q.val() {
+            self.s14_sends.d.next = self.s13_sends.q.val();
+            self.s14_fails.d.next = self.s13_fails.q.val();
+            self.s14_phase.d.next = self.s13_phase.q.val();
+            self.s14_entry.d.next = self.entry.val();
+            self.s14_area.d.next = self.s13_area.q.val();
+        }
+
+        // s15_sum: wraps at 2^B by intent.
+        if self.moves.val() {
+            self.s15_sends.d.next = self.s14_sends.q.val() && self.s14_phase.q.val() == 3;
+            if self.s14_fails.q.val() {
                 self.failed.d.next = true;
             }
         }
-        if self.moves.val() && self.s5_sends.q.val() {
-            self.s6_area.d.next = self.s5_area.q.val();
-            if self.s5_phase.q.val() == 0 {
-                self.s6_sum.d.next = self.entry.val();
-            } else if self.s5_phase.q.val() == 3 {
-                self.s6_sum.d.next = self.s6_sum.q.val() + self.entry.val();
+        if self.moves.val() && self.s14_sends.q.val() {
+            self.s15_area.d.next = self.s14_area.q.val();
+            if self.s14_phase.q.val() == 0 {
+                self.s15_sum.d.next = self.s14_entry.q.val();
+            } else if self.s14_phase.q.val() == 3 {
+                self.s15_sum.d.next = self.s15_sum.q.val() + self.s14_entry.q.val();
             } else {
-                self.s6_sum.d.next = self.s6_sum.q.val() - self.entry.val();
+                self.s15_sum.d.next = self.s15_sum.q.val() - self.s14_entry.q.val();
             }
         }
     }
@@ -171,6 +223,6 @@ ports! {
         inputs: in_valid, in_kind, in_x, in_y, in_a, in_b, in_sum, in_width, in_height, in_slide, out_ready;
         outputs: in_ready, out_valid, out_sum, out_area, error;
         blocks: corners;
-        state: corners, phase, s5_table, s5_sends, s5_phase, s5_zero, s5_area, s5_fails, s6_sends, s6_sum, s6_area, failed
+        state: corners, phase, s11_sends, s11_load, s11_fails, s11_phase, s11_zero, s11_word, s11_value, s11_area, s12_table, s12_sends, s12_fails, s12_phase, s12_zero, s12_area, s13_sends, s13_fails, s13_phase, s13_zero, s13_read, s13_area, s14_sends, s14_fails, s14_phase, s14_entry, s14_area, s15_sends, s15_sum, s15_area, failed
     }
 }

@@ -4,7 +4,7 @@
 //! The formula, the beats and the errors are those of [`crate::sat_fetch`]. Four parity banks would not do: the corners
 //! of a rectangle of even size have one parity.
 //!
-//! | port       | format      | meaning |   Latency 7, interval 1
+//! | port       | format      | meaning |   Latency 15, interval 1
 //! | in_kind    | 2 bits      | 0 size of a map, 1 load of an entry, 2 or 3 fetch   Golden: models::sat_fetch::SatFetch
 //! | in_width, in_height | unsigned M | of the map, at least one | size   Error 0
 //! | in_slide   | Bit         | rectangles slide into the map; otherwise they are cut | size
@@ -43,25 +43,41 @@ pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, cons
     pub out_area: Output<U<R>>,
     pub error: Output<Bit>,
     corners: SatCorners<M, X, R, T, B>,
-    s5_table_0: Ram<U<B>, T>,
-    s5_table_1: Ram<U<B>, T>,
-    s5_table_2: Ram<U<B>, T>,
-    s5_table_3: Ram<U<B>, T>,
-    s5_sends: Register<Bit>,
-    s5_zero: DataRegister<U<4>>,
-    s5_area: DataRegister<U<R>>,
-    s5_fails: Register<Bit>,
-    s6_sends: Register<Bit>,
-    s6_lower: DataRegister<U<B>>,
-    s6_upper: DataRegister<U<B>>,
-    s6_area: DataRegister<U<R>>,
-    s6_fails: Register<Bit>,
-    s7_sends: Register<Bit>,
-    s7_sum: DataRegister<U<B>>,
-    s7_area: DataRegister<U<R>>,
+    s11_table_0: Ram<U<B>, T>,
+    s11_table_1: Ram<U<B>, T>,
+    s11_table_2: Ram<U<B>, T>,
+    s11_table_3: Ram<U<B>, T>,
+    s11_sends: Register<Bit>,
+    s11_zero: DataRegister<U<4>>,
+    s11_area: DataRegister<U<R>>,
+    s11_fails: Register<Bit>,
+    s12_sends: Register<Bit>,
+    s12_read_0: DataRegister<U<B>>,
+    s12_read_1: DataRegister<U<B>>,
+    s12_read_2: DataRegister<U<B>>,
+    s12_read_3: DataRegister<U<B>>,
+    s12_zero: DataRegister<U<4>>,
+    s12_area: DataRegister<U<R>>,
+    s12_fails: Register<Bit>,
+    s13_sends: Register<Bit>,
+    s13_entry_0: DataRegister<U<B>>,
+    s13_entry_1: DataRegister<U<B>>,
+    s13_entry_2: DataRegister<U<B>>,
+    s13_entry_3: DataRegister<U<B>>,
+    s13_area: DataRegister<U<R>>,
+    s13_fails: Register<Bit>,
+    s14_sends: Register<Bit>,
+    s14_lower: DataRegister<U<B>>,
+    s14_upper: DataRegister<U<B>>,
+    s14_area: DataRegister<U<R>>,
+    s14_fails: Register<Bit>,
+    s15_sends: Register<Bit>,
+    s15_sum: DataRegister<U<B>>,
+    s15_area: DataRegister<U<R>>,
     failed: Register<Bit>,
     go: Wire<Bit>,
     stores: Wire<Bit>,
+    reads: Wire<Bit>,
     entry_0: Wire<U<B>>,
     entry_1: Wire<U<B>>,
     entry_2: Wire<U<B>>,
@@ -70,7 +86,7 @@ pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, cons
 
 impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> SatFetchParallel<M, X, R, T, B> {
     /// Cycles from a fetch to its sum.
-    pub const LATENCY: usize = 7;
+    pub const LATENCY: usize = 15;
 }
 
 impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> Logic
@@ -78,19 +94,21 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
 {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, corners, s5_table_0, s5_table_1, s5_table_2, s5_table_3);
-        dff_setup!(self, clock, s5_sends, s5_zero, s5_area, s5_fails, s6_sends, s6_lower, s6_upper, s6_area, s6_fails);
-        dff_setup!(self, clock, s7_sends, s7_sum, s7_area, failed);
+        clock!(self, clock, corners, s11_table_0, s11_table_1, s11_table_2, s11_table_3);
+        dff_setup!(self, clock, s11_sends, s11_zero, s11_area, s11_fails, s12_sends, s12_read_0, s12_read_1);
+        dff_setup!(self, clock, s12_read_2, s12_read_3, s12_zero, s12_area, s12_fails, s13_sends, s13_entry_0);
+        dff_setup!(self, clock, s13_entry_1, s13_entry_2, s13_entry_3, s13_area, s13_fails, s14_sends, s14_lower);
+        dff_setup!(self, clock, s14_upper, s14_area, s14_fails, s15_sends, s15_sum, s15_area, failed);
 
         // The whole pipeline moves, or stands.
-        self.go.next = !self.s7_sends.q.val() || self.out_ready.val();
+        self.go.next = !self.s15_sends.q.val() || self.out_ready.val();
         self.in_ready.next = self.go.val();
-        self.out_valid.next = self.s7_sends.q.val();
-        self.out_sum.next = self.s7_sum.q.val();
-        self.out_area.next = self.s7_area.q.val();
+        self.out_valid.next = self.s15_sends.q.val();
+        self.out_sum.next = self.s15_sum.q.val();
+        self.out_area.next = self.s15_area.q.val();
         self.error.next = self.failed.q.val();
 
-        // s1_beat to s4_words
+        // s1_beat to s10_inside
         self.corners.go.next = self.go.val();
         self.corners.valid.next = self.in_valid.val();
         self.corners.kind.next = self.in_kind.val();
@@ -103,60 +121,81 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
         self.corners.rows.next = self.in_b.val();
         self.corners.value.next = self.in_sum.val();
 
-        // s5_table: every copy takes every load.
+        // s11_table: every copy takes every load.
         self.stores.next = self.go.val() && self.corners.load.val();
-        self.s5_table_0.enable.next = self.go.val();
-        self.s5_table_0.read_address.next = self.corners.word_0.val();
-        self.s5_table_0.write_enable.next = self.stores.val();
-        self.s5_table_0.write_address.next = self.corners.word_0.val();
-        self.s5_table_0.write_data.next = self.corners.load_value.val();
-        self.s5_table_1.enable.next = self.go.val();
-        self.s5_table_1.read_address.next = self.corners.word_1.val();
-        self.s5_table_1.write_enable.next = self.stores.val();
-        self.s5_table_1.write_address.next = self.corners.word_0.val();
-        self.s5_table_1.write_data.next = self.corners.load_value.val();
-        self.s5_table_2.enable.next = self.go.val();
-        self.s5_table_2.read_address.next = self.corners.word_2.val();
-        self.s5_table_2.write_enable.next = self.stores.val();
-        self.s5_table_2.write_address.next = self.corners.word_0.val();
-        self.s5_table_2.write_data.next = self.corners.load_value.val();
-        self.s5_table_3.enable.next = self.go.val();
-        self.s5_table_3.read_address.next = self.corners.word_3.val();
-        self.s5_table_3.write_enable.next = self.stores.val();
-        self.s5_table_3.write_address.next = self.corners.word_0.val();
-        self.s5_table_3.write_data.next = self.corners.load_value.val();
+        // They are not read while they are written, so that synthesis sees that the ports never meet.
+        self.reads.next = self.go.val() && !self.corners.load.val();
+        self.s11_table_0.enable.next = self.reads.val();
+        self.s11_table_0.read_address.next = self.corners.word_0.val();
+        self.s11_table_0.write_enable.next = self.stores.val();
+        self.s11_table_0.write_address.next = self.corners.word_0.val();
+        self.s11_table_0.write_data.next = self.corners.load_value.val();
+        self.s11_table_1.enable.next = self.reads.val();
+        self.s11_table_1.read_address.next = self.corners.word_1.val();
+        self.s11_table_1.write_enable.next = self.stores.val();
+        self.s11_table_1.write_address.next = self.corners.word_0.val();
+        self.s11_table_1.write_data.next = self.corners.load_value.val();
+        self.s11_table_2.enable.next = self.reads.val();
+        self.s11_table_2.read_address.next = self.corners.word_2.val();
+        self.s11_table_2.write_enable.next = self.stores.val();
+        self.s11_table_2.write_address.next = self.corners.word_0.val();
+        self.s11_table_2.write_data.next = self.corners.load_value.val();
+        self.s11_table_3.enable.next = self.reads.val();
+        self.s11_table_3.read_address.next = self.corners.word_3.val();
+        self.s11_table_3.write_enable.next = self.stores.val();
+        self.s11_table_3.write_address.next = self.corners.word_0.val();
+        self.s11_table_3.write_data.next = self.corners.load_value.val();
 
-        // s6_lower, s6_upper, s7_sum: wrap at 2^B by intent.
-        self.entry_0.next = self.s5_table_0.read_data.val();
-        if self.s5_zero.q.val().get_bit(0) {
+        // s12_read: block RAM sends late in its cycle, and from far away.
+        if self.go.val() {
+            self.s11_sends.d.next = self.corners.fetch.val();
+            self.s11_zero.d.next = self.corners.zero.val();
+            self.s11_area.d.next = self.corners.area.val();
+            self.s11_fails.d.next = self.corners.fails.val();
+            self.s12_sends.d.next = self.s11_sends.q.val();
+            self.s12_read_0.d.next = self.s11_table_0.read_data.val();
+            self.s12_read_1.d.next = self.s11_table_1.read_data.val();
+            self.s12_read_2.d.next = self.s11_table_2.read_data.val();
+            self.s12_read_3.d.next = self.s11_table_3.read_data.val();
+            self.s12_zero.d.next = self.s11_zero.q.val();
+            self.s12_area.d.next = self.s11_area.q.val();
+            self.s12_fails.d.next = self.s11_fails.q.val();
+        }
+
+        // s13_entries, and their sum, which wraps at 2^B by intent: s14_lower and s14_upper, s15_sum.
+        self.entry_0.next = self.s12_read_0.q.val();
+        if self.s12_zero.q.val().get_bit(0) {
             self.entry_0.next = 0.into();
         }
-        self.entry_1.next = self.s5_table_1.read_data.val();
-        if self.s5_zero.q.val().get_bit(1) {
+        self.entry_1.next = self.s12_read_1.q.val();
+        if self.s12_zero.q.val().get_bit(1) {
             self.entry_1.next = 0.into();
         }
-        self.entry_2.next = self.s5_table_2.read_data.val();
-        if self.s5_zero.q.val().get_bit(2) {
+        self.entry_2.next = self.s12_read_2.q.val();
+        if self.s12_zero.q.val().get_bit(2) {
             self.entry_2.next = 0.into();
         }
-        self.entry_3.next = self.s5_table_3.read_data.val();
-        if self.s5_zero.q.val().get_bit(3) {
+        self.entry_3.next = self.s12_read_3.q.val();
+        if self.s12_zero.q.val().get_bit(3) {
             self.entry_3.next = 0.into();
         }
         if self.go.val() {
-            self.s5_sends.d.next = self.corners.fetch.val();
-            self.s5_zero.d.next = self.corners.zero.val();
-            self.s5_area.d.next = self.corners.area.val();
-            self.s5_fails.d.next = self.corners.fails.val();
-            self.s6_sends.d.next = self.s5_sends.q.val();
-            self.s6_lower.d.next = self.entry_0.val() - self.entry_1.val();
-            self.s6_upper.d.next = self.entry_2.val() - self.entry_3.val();
-            self.s6_area.d.next = self.s5_area.q.val();
-            self.s6_fails.d.next = self.s5_fails.q.val();
-            self.s7_sends.d.next = self.s6_sends.q.val();
-            self.s7_sum.d.next = self.s6_lower.q.val() - self.s6_upper.q.val();
-            self.s7_area.d.next = self.s6_area.q.val();
-            if self.s6_fails.q.val() {
+            self.s13_sends.d.next = self.s12_sends.q.val();
+            self.s13_entry_0.d.next = self.entry_0.val();
+            self.s13_entry_1.d.next = self.entry_1.val();
+            self.s13_entry_2.d.next = self.entry_2.val();
+            self.s13_entry_3.d.next = self.entry_3.val();
+            self.s13_area.d.next = self.s12_area.q.val();
+            self.s13_fails.d.next = self.s12_fails.q.val();
+            self.s14_sends.d.next = self.s13_sends.q.val();
+            self.s14_lower.d.next = self.s13_entry_0.q.val() - self.s13_entry_1.q.val();
+            self.s14_upper.d.next = self.s13_entry_2.q.val() - self.s13_entry_3.q.val();
+            self.s14_area.d.next = self.s13_area.q.val();
+            self.s14_fails.d.next = self.s13_fails.q.val();
+            self.s15_sends.d.next = self.s14_sends.q.val();
+            self.s15_sum.d.next = self.s14_lower.q.val() - self.s14_upper.q.val();
+            self.s15_area.d.next = self.s14_area.q.val();
+            if self.s14_fails.q.val() {
                 self.failed.d.next = true;
             }
         }
@@ -172,6 +211,6 @@ ports! {
         inputs: in_valid, in_kind, in_x, in_y, in_a, in_b, in_sum, in_width, in_height, in_slide, out_ready;
         outputs: in_ready, out_valid, out_sum, out_area, error;
         blocks: corners;
-        state: corners, s5_table_0, s5_table_1, s5_table_2, s5_table_3, s5_sends, s5_zero, s5_area, s5_fails, s6_sends, s6_lower, s6_upper, s6_area, s6_fails, s7_sends, s7_sum, s7_area, failed
+        state: corners, s11_table_0, s11_table_1, s11_table_2, s11_table_3, s11_sends, s11_zero, s11_area, s11_fails, s12_sends, s12_read_0, s12_read_1, s12_read_2, s12_read_3, s12_zero, s12_area, s12_fails, s13_sends, s13_entry_0, s13_entry_1, s13_entry_2, s13_entry_3, s13_area, s13_fails, s14_sends, s14_lower, s14_upper, s14_area, s14_fails, s15_sends, s15_sum, s15_area, failed
     }
 }

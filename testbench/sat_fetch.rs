@@ -275,7 +275,7 @@ impl Binding for SatFetchBinding {
         "the sum of a rectangle from one copy of a summed-area table"
     }
     fn latency(&self) -> &'static str {
-        "9"
+        "18"
     }
     fn interval(&self) -> &'static str {
         "4"

@@ -3,11 +3,13 @@
 //!
 //! word(x, y) = (y - 1) * width + x - 1; row 0 and column 0 have no word, they are zero
 //!
-//! | stage      | what it does                              |   Latency 4, interval 1; holds while `go` is low
+//! | stage      | what it does                              |   Latency 10, interval 1; holds while `go` is low
 //! | s1_beat    | takes a beat, keeps the size              |   Golden: models::sat_fetch   Error 0
-//! | s2_span    | both axes, cut or slid                    |
-//! | s3_product | rows times width, and the area            |
-//! | s4_words   | four words, and which of them are zero    |
+//! | s2 to s6   | both axes, cut or slid: SatSpan           |
+//! | s7_factors | rows above, and the rectangle's sides     |
+//! | s8_product | rows times width, and the area            |
+//! | s9_words   | four words, and which of them are zero    |
+//! | s10_inside  | whether they are in the memory            |
 
 use super::SatSpan;
 use crate::prelude::*;
@@ -59,42 +61,79 @@ pub struct SatCorners<const M: usize, const X: usize, const R: usize, const T: u
     s2_fetch: Register<Bit>,
     s2_load: Register<Bit>,
     s2_fails: Register<Bit>,
-    s2_x0: DataRegister<S<14>>,
-    s2_x1: DataRegister<S<14>>,
-    s2_y0: DataRegister<S<14>>,
-    s2_y1: DataRegister<S<14>>,
     s2_width: DataRegister<S<14>>,
     s2_value: DataRegister<U<B>>,
     s3_fetch: Register<Bit>,
     s3_load: Register<Bit>,
     s3_fails: Register<Bit>,
-    s3_upper: Multiplier<14, 14, 28>,
-    s3_lower: Multiplier<14, 14, 28>,
-    s3_area: Multiplier<14, 14, 28>,
-    s3_x0: DataRegister<U<28>>,
-    s3_x1: DataRegister<U<28>>,
-    s3_zero: DataRegister<U<4>>,
+    s3_width: DataRegister<S<14>>,
     s3_value: DataRegister<U<B>>,
     s4_fetch: Register<Bit>,
     s4_load: Register<Bit>,
     s4_fails: Register<Bit>,
-    s4_word_0: DataRegister<U<28>>,
-    s4_word_1: DataRegister<U<28>>,
-    s4_word_2: DataRegister<U<28>>,
-    s4_word_3: DataRegister<U<28>>,
-    s4_zero: DataRegister<U<4>>,
-    s4_area: DataRegister<U<R>>,
+    s4_width: DataRegister<S<14>>,
     s4_value: DataRegister<U<B>>,
+    s5_fetch: Register<Bit>,
+    s5_load: Register<Bit>,
+    s5_fails: Register<Bit>,
+    s5_width: DataRegister<S<14>>,
+    s5_value: DataRegister<U<B>>,
+    s6_fetch: Register<Bit>,
+    s6_load: Register<Bit>,
+    s6_fails: Register<Bit>,
+    s6_width: DataRegister<S<14>>,
+    s6_value: DataRegister<U<B>>,
+    s7_fetch: Register<Bit>,
+    s7_load: Register<Bit>,
+    s7_fails: Register<Bit>,
+    s7_width: DataRegister<S<14>>,
+    s7_upper: DataRegister<S<14>>,
+    s7_lower: DataRegister<S<14>>,
+    s7_columns: DataRegister<S<14>>,
+    s7_rows: DataRegister<S<14>>,
+    s7_x0: DataRegister<S<14>>,
+    s7_x1: DataRegister<S<14>>,
+    s7_zero_x0: DataRegister<Bit>,
+    s7_zero_x1: DataRegister<Bit>,
+    s7_zero_y0: DataRegister<Bit>,
+    s7_zero_y1: DataRegister<Bit>,
+    s7_value: DataRegister<U<B>>,
+    s8_fetch: Register<Bit>,
+    s8_load: Register<Bit>,
+    s8_fails: Register<Bit>,
+    s8_upper: Multiplier<14, 14, 28>,
+    s8_lower: Multiplier<14, 14, 28>,
+    s8_area: Multiplier<14, 14, 28>,
+    s8_x0: DataRegister<U<28>>,
+    s8_x1: DataRegister<U<28>>,
+    s8_zero: DataRegister<U<4>>,
+    s8_value: DataRegister<U<B>>,
+    s9_fetch: Register<Bit>,
+    s9_load: Register<Bit>,
+    s9_fails: Register<Bit>,
+    s9_word_0: DataRegister<U<28>>,
+    s9_word_1: DataRegister<U<28>>,
+    s9_word_2: DataRegister<U<28>>,
+    s9_word_3: DataRegister<U<28>>,
+    s9_zero: DataRegister<U<4>>,
+    s9_area: DataRegister<U<R>>,
+    s9_value: DataRegister<U<B>>,
+    s10_fetch: Register<Bit>,
+    s10_load: Register<Bit>,
+    s10_fails: Register<Bit>,
+    s10_word_0: DataRegister<U<T>>,
+    s10_word_1: DataRegister<U<T>>,
+    s10_word_2: DataRegister<U<T>>,
+    s10_word_3: DataRegister<U<T>>,
+    s10_zero: DataRegister<U<4>>,
+    s10_area: DataRegister<U<R>>,
+    s10_value: DataRegister<U<B>>,
     beat: Wire<Bit>,
     size: Wire<Bit>,
     loads: Wire<Bit>,
     fetches: Wire<Bit>,
     sound: Wire<Bit>,
     outside: Wire<Bit>,
-    zero_x0: Wire<Bit>,
-    zero_x1: Wire<Bit>,
-    zero_y0: Wire<Bit>,
-    zero_y1: Wire<Bit>,
     zero_corner: Wire<U<4>>,
     product: Wire<U<28>>,
     fit_0: Wire<U<28>>,
@@ -154,42 +193,79 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
             s2_fetch: Register::default(),
             s2_load: Register::default(),
             s2_fails: Register::default(),
-            s2_x0: DataRegister::default(),
-            s2_x1: DataRegister::default(),
-            s2_y0: DataRegister::default(),
-            s2_y1: DataRegister::default(),
             s2_width: DataRegister::default(),
             s2_value: DataRegister::default(),
             s3_fetch: Register::default(),
             s3_load: Register::default(),
             s3_fails: Register::default(),
-            s3_upper: Multiplier::default(),
-            s3_lower: Multiplier::default(),
-            s3_area: Multiplier::default(),
-            s3_x0: DataRegister::default(),
-            s3_x1: DataRegister::default(),
-            s3_zero: DataRegister::default(),
+            s3_width: DataRegister::default(),
             s3_value: DataRegister::default(),
             s4_fetch: Register::default(),
             s4_load: Register::default(),
             s4_fails: Register::default(),
-            s4_word_0: DataRegister::default(),
-            s4_word_1: DataRegister::default(),
-            s4_word_2: DataRegister::default(),
-            s4_word_3: DataRegister::default(),
-            s4_zero: DataRegister::default(),
-            s4_area: DataRegister::default(),
+            s4_width: DataRegister::default(),
             s4_value: DataRegister::default(),
+            s5_fetch: Register::default(),
+            s5_load: Register::default(),
+            s5_fails: Register::default(),
+            s5_width: DataRegister::default(),
+            s5_value: DataRegister::default(),
+            s6_fetch: Register::default(),
+            s6_load: Register::default(),
+            s6_fails: Register::default(),
+            s6_width: DataRegister::default(),
+            s6_value: DataRegister::default(),
+            s7_fetch: Register::default(),
+            s7_load: Register::default(),
+            s7_fails: Register::default(),
+            s7_width: DataRegister::default(),
+            s7_upper: DataRegister::default(),
+            s7_lower: DataRegister::default(),
+            s7_columns: DataRegister::default(),
+            s7_rows: DataRegister::default(),
+            s7_x0: DataRegister::default(),
+            s7_x1: DataRegister::default(),
+            s7_zero_x0: DataRegister::default(),
+            s7_zero_x1: DataRegister::default(),
+            s7_zero_y0: DataRegister::default(),
+            s7_zero_y1: DataRegister::default(),
+            s7_value: DataRegister::default(),
+            s8_fetch: Register::default(),
+            s8_load: Register::default(),
+            s8_fails: Register::default(),
+            s8_upper: Multiplier::default(),
+            s8_lower: Multiplier::default(),
+            s8_area: Multiplier::default(),
+            s8_x0: DataRegister::default(),
+            s8_x1: DataRegister::default(),
+            s8_zero: DataRegister::default(),
+            s8_value: DataRegister::default(),
+            s9_fetch: Register::default(),
+            s9_load: Register::default(),
+            s9_fails: Register::default(),
+            s9_word_0: DataRegister::default(),
+            s9_word_1: DataRegister::default(),
+            s9_word_2: DataRegister::default(),
+            s9_word_3: DataRegister::default(),
+            s9_zero: DataRegister::default(),
+            s9_area: DataRegister::default(),
+            s9_value: DataRegister::default(),
+            s10_fetch: Register::default(),
+            s10_load: Register::default(),
+            s10_fails: Register::default(),
+            s10_word_0: DataRegister::default(),
+            s10_word_1: DataRegister::default(),
+            s10_word_2: DataRegister::default(),
+            s10_word_3: DataRegister::default(),
+            s10_zero: DataRegister::default(),
+            s10_area: DataRegister::default(),
+            s10_value: DataRegister::default(),
             beat: Wire::default(),
             size: Wire::default(),
             loads: Wire::default(),
             fetches: Wire::default(),
             sound: Wire::default(),
             outside: Wire::default(),
-            zero_x0: Wire::default(),
-            zero_x1: Wire::default(),
-            zero_y0: Wire::default(),
-            zero_y1: Wire::default(),
             zero_corner: Wire::default(),
             product: Wire::default(),
             fit_0: Wire::default(),
@@ -209,14 +285,17 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
 {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, s3_upper, s3_lower, s3_area);
-        dff_setup!(self, clock, sized, side_x, side_y, slides, s1_fetch, s1_load, s1_fails, s1_x, s1_y);
-        dff_setup!(self, clock, s1_a, s1_b, s1_value, s1_blank, s2_fetch, s2_load, s2_fails, s2_x0, s2_x1);
-        dff_setup!(self, clock, s2_y0, s2_y1, s2_width, s2_value, s3_fetch, s3_load, s3_fails, s3_x0, s3_x1);
-        dff_setup!(
-            self, clock, s3_zero, s3_value, s4_fetch, s4_load, s4_fails, s4_word_0, s4_word_1, s4_word_2, s4_word_3
-        );
-        dff_setup!(self, clock, s4_zero, s4_area, s4_value);
+        clock!(self, clock, span_x, span_y, s8_upper, s8_lower, s8_area);
+        dff_setup!(self, clock, sized, side_x, side_y, slides, s1_fetch, s1_load, s1_fails, s1_x, s1_y, s1_a, s1_b);
+        dff_setup!(self, clock, s1_value, s1_blank, s2_fetch, s2_load, s2_fails, s2_width, s2_value, s3_fetch);
+        dff_setup!(self, clock, s3_load, s3_fails, s3_width, s3_value, s4_fetch, s4_load, s4_fails, s4_width);
+        dff_setup!(self, clock, s4_value, s5_fetch, s5_load, s5_fails, s5_width, s5_value, s6_fetch, s6_load);
+        dff_setup!(self, clock, s6_fails, s6_width, s6_value, s7_fetch, s7_load, s7_fails, s7_width, s7_upper);
+        dff_setup!(self, clock, s7_lower, s7_columns, s7_rows, s7_x0, s7_x1, s7_zero_x0, s7_zero_x1, s7_zero_y0);
+        dff_setup!(self, clock, s7_zero_y1, s7_value, s8_fetch, s8_load, s8_fails, s8_x0, s8_x1, s8_zero, s8_value);
+        dff_setup!(self, clock, s9_fetch, s9_load, s9_fails, s9_word_0, s9_word_1, s9_word_2, s9_word_3, s9_zero);
+        dff_setup!(self, clock, s9_area, s9_value, s10_fetch, s10_load, s10_fails, s10_word_0, s10_word_1);
+        dff_setup!(self, clock, s10_word_2, s10_word_3, s10_zero, s10_area, s10_value);
 
         // s1_beat
         self.beat.next = self.go.val() && self.valid.val();
@@ -243,102 +322,143 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
             self.s1_value.d.next = self.value.val();
         }
 
-        // s2_span: sides of 13 bits are positive in 14 and 18.
+        // s2 to s6: the spans. Sides of 13 bits are positive in 14 and 18.
+        self.span_x.go.next = self.go.val();
         self.span_x.corner.next = bit_cast_to::<S<18>>(self.s1_x.q.val());
         self.span_x.size.next = bit_cast_to::<S<18>>(self.s1_a.q.val());
         self.span_x.side.next = bit_cast_to::<S<18>>(self.side_x.q.val());
         self.span_x.slide.next = self.slides.q.val();
         self.span_x.load.next = self.s1_load.q.val();
+        self.span_x.blank.next = self.s1_blank.q.val();
+        self.span_y.go.next = self.go.val();
         self.span_y.corner.next = bit_cast_to::<S<18>>(self.s1_y.q.val());
         self.span_y.size.next = bit_cast_to::<S<18>>(self.s1_b.q.val());
         self.span_y.side.next = bit_cast_to::<S<18>>(self.side_y.q.val());
         self.span_y.slide.next = self.slides.q.val();
         self.span_y.load.next = self.s1_load.q.val();
+        self.span_y.blank.next = self.s1_blank.q.val();
         self.outside.next = self.span_x.outside.val() || self.span_y.outside.val();
         if self.go.val() {
             self.s2_fetch.d.next = self.s1_fetch.q.val();
-            self.s2_load.d.next = self.s1_load.q.val() && !self.outside.val();
-            self.s2_fails.d.next = self.s1_fails.q.val() || self.outside.val();
+            self.s2_load.d.next = self.s1_load.q.val();
+            self.s2_fails.d.next = self.s1_fails.q.val();
             self.s2_width.d.next = bit_cast_to::<S<14>>(self.side_x.q.val());
             self.s2_value.d.next = self.s1_value.q.val();
-            self.s2_x0.d.next = self.span_x.first.val();
-            self.s2_x1.d.next = self.span_x.behind.val();
-            self.s2_y0.d.next = self.span_y.first.val();
-            self.s2_y1.d.next = self.span_y.behind.val();
-            // Without a size there is no entry.
-            if self.s1_blank.q.val() {
-                self.s2_x0.d.next = 0.into();
-                self.s2_x1.d.next = 0.into();
-                self.s2_y0.d.next = 0.into();
-                self.s2_y1.d.next = 0.into();
-            }
-        }
-
-        // s3_product: 13 x 13 bits. What row 0 and column 0 make of it is never used.
-        self.s3_upper.enable.next = self.go.val();
-        self.s3_upper.a.next = self.s2_y1.q.val() - 1;
-        self.s3_upper.b.next = self.s2_width.q.val();
-        self.s3_lower.enable.next = self.go.val();
-        self.s3_lower.a.next = self.s2_y0.q.val() - 1;
-        self.s3_lower.b.next = self.s2_width.q.val();
-        self.s3_area.enable.next = self.go.val();
-        self.s3_area.a.next = self.s2_x1.q.val() - self.s2_x0.q.val();
-        self.s3_area.b.next = self.s2_y1.q.val() - self.s2_y0.q.val();
-        self.zero_x0.next = self.s2_x0.q.val() == 0;
-        self.zero_x1.next = self.s2_x1.q.val() == 0;
-        self.zero_y0.next = self.s2_y0.q.val() == 0;
-        self.zero_y1.next = self.s2_y1.q.val() == 0;
-        self.zero_corner.next = bit_cast_to::<U<4>>(self.zero_x1.val() || self.zero_y1.val())
-            | (bit_cast_to::<U<4>>(self.zero_x0.val() || self.zero_y1.val()) << 1)
-            | (bit_cast_to::<U<4>>(self.zero_x1.val() || self.zero_y0.val()) << 2)
-            | (bit_cast_to::<U<4>>(self.zero_x0.val() || self.zero_y0.val()) << 3);
-        if self.go.val() {
             self.s3_fetch.d.next = self.s2_fetch.q.val();
-            self.s3_load.d.next = self.s2_load.q.val();
-            self.s3_fails.d.next = self.s2_fails.q.val();
+            self.s3_load.d.next = self.s2_load.q.val() && !self.outside.val();
+            self.s3_fails.d.next = self.s2_fails.q.val() || self.outside.val();
+            self.s3_width.d.next = self.s2_width.q.val();
             self.s3_value.d.next = self.s2_value.q.val();
-            self.s3_x0.d.next = bit_cast_to::<U<28>>(self.s2_x0.q.val()) - 1;
-            self.s3_x1.d.next = bit_cast_to::<U<28>>(self.s2_x1.q.val()) - 1;
-            self.s3_zero.d.next = self.zero_corner.val();
-        }
-
-        // s4_words: below 2^26 each, and so is the area.
-        self.product.next = bit_cast_to::<U<28>>(self.s3_area.p.val());
-        self.too_large.next = bit_cast_to::<U<R>>(self.product.val()) >= self.limit.val();
-        if self.go.val() {
             self.s4_fetch.d.next = self.s3_fetch.q.val();
             self.s4_load.d.next = self.s3_load.q.val();
-            self.s4_fails.d.next = self.s3_fails.q.val() || (self.s3_fetch.q.val() && self.too_large.val());
+            self.s4_fails.d.next = self.s3_fails.q.val();
+            self.s4_width.d.next = self.s3_width.q.val();
             self.s4_value.d.next = self.s3_value.q.val();
-            self.s4_word_0.d.next = bit_cast_to::<U<28>>(self.s3_upper.p.val()) + self.s3_x1.q.val();
-            self.s4_word_1.d.next = bit_cast_to::<U<28>>(self.s3_upper.p.val()) + self.s3_x0.q.val();
-            self.s4_word_2.d.next = bit_cast_to::<U<28>>(self.s3_lower.p.val()) + self.s3_x1.q.val();
-            self.s4_word_3.d.next = bit_cast_to::<U<28>>(self.s3_lower.p.val()) + self.s3_x0.q.val();
-            self.s4_zero.d.next = self.s3_zero.q.val();
-            self.s4_area.d.next = bit_cast_to::<U<R>>(self.product.val());
+            self.s5_fetch.d.next = self.s4_fetch.q.val();
+            self.s5_load.d.next = self.s4_load.q.val();
+            self.s5_fails.d.next = self.s4_fails.q.val();
+            self.s5_width.d.next = self.s4_width.q.val();
+            self.s5_value.d.next = self.s4_value.q.val();
+            self.s6_fetch.d.next = self.s5_fetch.q.val();
+            self.s6_load.d.next = self.s5_load.q.val();
+            self.s6_fails.d.next = self.s5_fails.q.val();
+            self.s6_width.d.next = self.s5_width.q.val();
+            self.s6_value.d.next = self.s5_value.q.val();
         }
-        self.fit_0.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s4_word_0.q.val()));
-        self.fit_1.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s4_word_1.q.val()));
-        self.fit_2.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s4_word_2.q.val()));
-        self.fit_3.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s4_word_3.q.val()));
-        self.beyond.next = bit_cast_to::<U<4>>(self.fit_0.val() != self.s4_word_0.q.val())
-            | (bit_cast_to::<U<4>>(self.fit_1.val() != self.s4_word_1.q.val()) << 1)
-            | (bit_cast_to::<U<4>>(self.fit_2.val() != self.s4_word_2.q.val()) << 2)
-            | (bit_cast_to::<U<4>>(self.fit_3.val() != self.s4_word_3.q.val()) << 3);
-        // What is looked for beyond the memory.
-        self.used.next = self.beyond.val() & !self.s4_zero.q.val();
-        self.fetch.next = self.s4_fetch.q.val();
-        self.load.next = self.s4_load.q.val() && !self.beyond.val().get_bit(0);
-        self.fails.next = self.s4_fails.q.val()
-            || (self.s4_fetch.q.val() && self.used.val() != 0)
-            || (self.s4_load.q.val() && self.beyond.val().get_bit(0));
-        self.word_0.next = bit_cast_to::<U<T>>(self.s4_word_0.q.val());
-        self.word_1.next = bit_cast_to::<U<T>>(self.s4_word_1.q.val());
-        self.word_2.next = bit_cast_to::<U<T>>(self.s4_word_2.q.val());
-        self.word_3.next = bit_cast_to::<U<T>>(self.s4_word_3.q.val());
-        self.zero.next = self.s4_zero.q.val() | self.beyond.val();
-        self.area.next = self.s4_area.q.val();
-        self.load_value.next = self.s4_value.q.val();
+
+        // s7_factors: 13 bits each. What row 0 and column 0 make of it is never used.
+        if self.go.val() {
+            self.s7_fetch.d.next = self.s6_fetch.q.val();
+            self.s7_load.d.next = self.s6_load.q.val();
+            self.s7_fails.d.next = self.s6_fails.q.val();
+            self.s7_width.d.next = self.s6_width.q.val();
+            self.s7_value.d.next = self.s6_value.q.val();
+            self.s7_upper.d.next = self.span_y.behind.val() - 1;
+            self.s7_lower.d.next = self.span_y.first.val() - 1;
+            self.s7_columns.d.next = self.span_x.behind.val() - self.span_x.first.val();
+            self.s7_rows.d.next = self.span_y.behind.val() - self.span_y.first.val();
+            self.s7_x0.d.next = self.span_x.first.val() - 1;
+            self.s7_x1.d.next = self.span_x.behind.val() - 1;
+            self.s7_zero_x0.d.next = self.span_x.first.val() == 0;
+            self.s7_zero_x1.d.next = self.span_x.behind.val() == 0;
+            self.s7_zero_y0.d.next = self.span_y.first.val() == 0;
+            self.s7_zero_y1.d.next = self.span_y.behind.val() == 0;
+        }
+
+        // s8_product: 13 x 13 bits.
+        self.s8_upper.enable.next = self.go.val();
+        self.s8_upper.a.next = self.s7_upper.q.val();
+        self.s8_upper.b.next = self.s7_width.q.val();
+        self.s8_lower.enable.next = self.go.val();
+        self.s8_lower.a.next = self.s7_lower.q.val();
+        self.s8_lower.b.next = self.s7_width.q.val();
+        self.s8_area.enable.next = self.go.val();
+        self.s8_area.a.next = self.s7_columns.q.val();
+        self.s8_area.b.next = self.s7_rows.q.val();
+        self.zero_corner.next = bit_cast_to::<U<4>>(self.s7_zero_x1.q.val() || self.s7_zero_y1.q.val())
+            | (bit_cast_to::<U<4>>(self.s7_zero_x0.q.val() || self.s7_zero_y1.q.val()) << 1)
+            | (bit_cast_to::<U<4>>(self.s7_zero_x1.q.val() || self.s7_zero_y0.q.val()) << 2)
+            | (bit_cast_to::<U<4>>(self.s7_zero_x0.q.val() || self.s7_zero_y0.q.val()) << 3);
+        if self.go.val() {
+            self.s8_fetch.d.next = self.s7_fetch.q.val();
+            self.s8_load.d.next = self.s7_load.q.val();
+            self.s8_fails.d.next = self.s7_fails.q.val();
+            self.s8_value.d.next = self.s7_value.q.val();
+            self.s8_x0.d.next = bit_cast_to::<U<28>>(self.s7_x0.q.val());
+            self.s8_x1.d.next = bit_cast_to::<U<28>>(self.s7_x1.q.val());
+            self.s8_zero.d.next = self.zero_corner.val();
+        }
+
+        // s9_words: below 2^26 each, and so is the area.
+        self.product.next = bit_cast_to::<U<28>>(self.s8_area.p.val());
+        self.too_large.next = bit_cast_to::<U<R>>(self.product.val()) >= self.limit.val();
+        if self.go.val() {
+            self.s9_fetch.d.next = self.s8_fetch.q.val();
+            self.s9_load.d.next = self.s8_load.q.val();
+            self.s9_fails.d.next = self.s8_fails.q.val() || (self.s8_fetch.q.val() && self.too_large.val());
+            self.s9_value.d.next = self.s8_value.q.val();
+            self.s9_word_0.d.next = bit_cast_to::<U<28>>(self.s8_upper.p.val()) + self.s8_x1.q.val();
+            self.s9_word_1.d.next = bit_cast_to::<U<28>>(self.s8_upper.p.val()) + self.s8_x0.q.val();
+            self.s9_word_2.d.next = bit_cast_to::<U<28>>(self.s8_lower.p.val()) + self.s8_x1.q.val();
+            self.s9_word_3.d.next = bit_cast_to::<U<28>>(self.s8_lower.p.val()) + self.s8_x0.q.val();
+            self.s9_zero.d.next = self.s8_zero.q.val();
+            self.s9_area.d.next = bit_cast_to::<U<R>>(self.product.val());
+        }
+
+        // s10_inside: words beyond the memory are zero, and an error if they are looked for.
+        self.fit_0.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s9_word_0.q.val()));
+        self.fit_1.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s9_word_1.q.val()));
+        self.fit_2.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s9_word_2.q.val()));
+        self.fit_3.next = bit_cast_to::<U<28>>(bit_cast_to::<U<T>>(self.s9_word_3.q.val()));
+        self.beyond.next = bit_cast_to::<U<4>>(self.fit_0.val() != self.s9_word_0.q.val())
+            | (bit_cast_to::<U<4>>(self.fit_1.val() != self.s9_word_1.q.val()) << 1)
+            | (bit_cast_to::<U<4>>(self.fit_2.val() != self.s9_word_2.q.val()) << 2)
+            | (bit_cast_to::<U<4>>(self.fit_3.val() != self.s9_word_3.q.val()) << 3);
+        self.used.next = self.beyond.val() & !self.s9_zero.q.val();
+        if self.go.val() {
+            self.s10_fetch.d.next = self.s9_fetch.q.val();
+            self.s10_load.d.next = self.s9_load.q.val() && !self.beyond.val().get_bit(0);
+            self.s10_fails.d.next = self.s9_fails.q.val()
+                || (self.s9_fetch.q.val() && self.used.val() != 0)
+                || (self.s9_load.q.val() && self.beyond.val().get_bit(0));
+            self.s10_word_0.d.next = bit_cast_to::<U<T>>(self.s9_word_0.q.val());
+            self.s10_word_1.d.next = bit_cast_to::<U<T>>(self.s9_word_1.q.val());
+            self.s10_word_2.d.next = bit_cast_to::<U<T>>(self.s9_word_2.q.val());
+            self.s10_word_3.d.next = bit_cast_to::<U<T>>(self.s9_word_3.q.val());
+            self.s10_zero.d.next = self.s9_zero.q.val() | self.beyond.val();
+            self.s10_area.d.next = self.s9_area.q.val();
+            self.s10_value.d.next = self.s9_value.q.val();
+        }
+        self.fetch.next = self.s10_fetch.q.val();
+        self.load.next = self.s10_load.q.val();
+        self.fails.next = self.s10_fails.q.val();
+        self.word_0.next = self.s10_word_0.q.val();
+        self.word_1.next = self.s10_word_1.q.val();
+        self.word_2.next = self.s10_word_2.q.val();
+        self.word_3.next = self.s10_word_3.q.val();
+        self.zero.next = self.s10_zero.q.val();
+        self.area.next = self.s10_area.q.val();
+        self.load_value.next = self.s10_value.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -346,4 +466,4 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
     }
 }
 
-latches! { [const M: usize, const X: usize, const R: usize, const T: usize, const B: usize] SatCorners<M, X, R, T, B>: sized, side_x, side_y, slides, s1_fetch, s1_load, s1_fails, s1_x, s1_y, s1_a, s1_b, s1_value, s1_blank, s2_fetch, s2_load, s2_fails, s2_x0, s2_x1, s2_y0, s2_y1, s2_width, s2_value, s3_fetch, s3_load, s3_fails, s3_x0, s3_x1, s3_zero, s3_value, s4_fetch, s4_load, s4_fails, s4_word_0, s4_word_1, s4_word_2, s4_word_3, s4_zero, s4_area, s4_value, s3_upper, s3_lower, s3_area }
+latches! { [const M: usize, const X: usize, const R: usize, const T: usize, const B: usize] SatCorners<M, X, R, T, B>: sized, side_x, side_y, slides, s1_fetch, s1_load, s1_fails, s1_x, s1_y, s1_a, s1_b, s1_value, s1_blank, s2_fetch, s2_load, s2_fails, s2_width, s2_value, s3_fetch, s3_load, s3_fails, s3_width, s3_value, s4_fetch, s4_load, s4_fails, s4_width, s4_value, s5_fetch, s5_load, s5_fails, s5_width, s5_value, s6_fetch, s6_load, s6_fails, s6_width, s6_value, s7_fetch, s7_load, s7_fails, s7_width, s7_upper, s7_lower, s7_columns, s7_rows, s7_x0, s7_x1, s7_zero_x0, s7_zero_x1, s7_zero_y0, s7_zero_y1, s7_value, s8_fetch, s8_load, s8_fails, s8_x0, s8_x1, s8_zero, s8_value, s9_fetch, s9_load, s9_fails, s9_word_0, s9_word_1, s9_word_2, s9_word_3, s9_zero, s9_area, s9_value, s10_fetch, s10_load, s10_fails, s10_word_0, s10_word_1, s10_word_2, s10_word_3, s10_zero, s10_area, s10_value, span_x, span_y, s8_upper, s8_lower, s8_area }

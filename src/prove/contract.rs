@@ -112,12 +112,12 @@ pub const CONTRACTS: [Contract; 10] = [
         exchange: Some(Exchange {
             asks: "in_kind >= 2",
             answers: "1'b1",
-            under_way: 5,
-            silence: Some(9),
-            cycles: 20,
+            under_way: 12,
+            silence: Some(18),
+            cycles: 24,
             cut: true,
         }),
-        reach: 20,
+        reach: 30,
         ..NONE
     },
     Contract {
@@ -125,12 +125,12 @@ pub const CONTRACTS: [Contract; 10] = [
         exchange: Some(Exchange {
             asks: "in_kind >= 2",
             answers: "1'b1",
-            under_way: 7,
-            silence: Some(7),
-            cycles: 14,
+            under_way: 15,
+            silence: Some(15),
+            cycles: 20,
             cut: true,
         }),
-        reach: 16,
+        reach: 24,
         ..NONE
     },
     Contract {
