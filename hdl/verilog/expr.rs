@@ -305,6 +305,16 @@ impl Context<'_> {
             }
         }
         let (a, b) = (Box::new(self.typed_as(a, &ty)?), Box::new(self.typed_as(b, &ty)?));
+        if let (VerilogOp::Lt | VerilogOp::Ge, Type::Int { signed: true, bits }, Node::Literal(0)) = (op, &ty, &b.node)
+        {
+            // The sign: synthesis makes a whole subtraction of a comparison.
+            let sign = Typed { ty: BIT, node: Node::Select(a, Index::Constant(bits - 1)) };
+            return Ok(if matches!(op, VerilogOp::Lt) {
+                sign
+            } else {
+                Typed { ty: BIT, node: Node::Unary("~", Box::new(sign)) }
+            });
+        }
         Ok(Typed { ty: if arithmetic { ty } else { BIT }, node: Node::Binary(text, a, b) })
     }
 

@@ -91,11 +91,7 @@ impl Functions {
             return self.slice(from, &BIT, index);
         }
         let (lanes, bits) = measures(from);
-        // The last lane also stands for the indexes beyond it, which the block must not use.
-        let lanes = lanes.min(1 << index.width().min(16));
-        let choices: String =
-            (0..lanes - 1).map(|i| format!("({}) ? {} :\n            ", is(i, index), part("x", i, bits))).collect();
-        let body = choices + &part("x", lanes - 1, bits);
+        let body = choice(0, lanes, index.width(), bits, index.width());
         self.add(format!("{}_lane_{}", from.short(), index.short()), to, &[("x", from), ("k", index)], &body)
     }
 
@@ -134,6 +130,19 @@ fn measures(ty: &Type) -> (usize, usize) {
 /// Lane `i` of the argument `name`.
 fn part(name: &str, i: usize, bits: usize) -> String {
     format!("{name}[{}:{}]", (i + 1) * bits - 1, i * bits)
+}
+
+/// The lane among those from `low` that the lowest `digits` bits of the argument `k` tell: bit by bit, which synthesis
+/// makes fewer cells of than of one comparison a lane. Some lane also stands for the indexes beyond the last, which the
+/// block must not use.
+fn choice(low: usize, lanes: usize, digits: usize, bits: usize, width: usize) -> String {
+    let Some(digit) = digits.checked_sub(1) else { return part("x", low, bits) };
+    let lower = choice(low, lanes, digit, bits, width);
+    if digit >= 16 || low + (1 << digit) >= lanes {
+        return lower;
+    }
+    let bit = if width == 1 { "k".into() } else { format!("k[{digit}]") };
+    format!("({bit} ? {} : {lower})", choice(low + (1 << digit), lanes, digit, bits, width))
 }
 
 /// Whether the argument `k` is `i`.
