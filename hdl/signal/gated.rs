@@ -109,7 +109,8 @@ impl<B: Watched> Latch for Gated<B> {
             return false;
         }
         let changed = self.block.latch(reset);
-        self.quiet = !changed;
+        // Under reset nothing may change and yet a register be about to.
+        self.quiet = !changed && !reset;
         if changed {
             // What the edge changed shows at the outputs before the parent reads them.
             self.evaluate();
