@@ -37,12 +37,18 @@ pub struct Divider<const L: usize, const Q: usize, const R: usize> {
     /// Remainders.
     pub remainder: Output<Lanes<L, R>>,
     count: Register<U<8>>,
+    /// The count is not 0, or 1.
+    working: Register<Bit>,
+    last: Register<Bit>,
     partial: DataRegister<Lanes<L, R>>,
     bits: DataRegister<Lanes<L, Q>>,
     y: DataRegister<S<R>>,
+    /// -y, so that a step is a choice and one addition.
+    minus_y: DataRegister<S<R>>,
     sign: Wire<Lanes<L, R>>,
     doubled: Wire<Lanes<L, R>>,
     addend: Wire<Lanes<L, R>>,
+    from: Wire<Lanes<L, R>>,
     one_r: Constant<Lanes<L, R>>,
     one_q: Constant<Lanes<L, Q>>,
     r_sign: Constant<U<8>>,
@@ -63,12 +69,16 @@ impl<const L: usize, const Q: usize, const R: usize> Default for Divider<L, Q, R
             quotient: Output::default(),
             remainder: Output::default(),
             count: Register::default(),
+            working: Register::default(),
+            last: Register::default(),
             partial: DataRegister::default(),
             bits: DataRegister::default(),
             y: DataRegister::default(),
+            minus_y: DataRegister::default(),
             sign: Wire::default(),
             doubled: Wire::default(),
             addend: Wire::default(),
+            from: Wire::default(),
             one_r: Constant::new(Lanes::new([1; L])),
             one_q: Constant::new(Lanes::new([1; L])),
             r_sign: Constant::new(U::new(R as i64 - 1)),
@@ -86,9 +96,9 @@ impl<const L: usize, const Q: usize, const R: usize> Divider<L, Q, R> {
 impl<const L: usize, const Q: usize, const R: usize> Logic for Divider<L, Q, R> {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, count, partial, bits, y);
-        self.busy.next = self.count.q.val() != 0;
-        self.done.next = self.count.q.val() == 1;
+        dff_setup!(self, clock, count, working, last, partial, bits, y, minus_y);
+        self.busy.next = self.working.q.val();
+        self.done.next = self.last.q.val();
         self.quotient.next = self.bits.q.val();
         self.remainder.next = self.partial.q.val();
         // All ones in the lanes whose partial remainder is negative.
@@ -96,27 +106,31 @@ impl<const L: usize, const Q: usize, const R: usize> Logic for Divider<L, Q, R> 
         self.doubled.next = (self.partial.q.val() << 1)
             | (bit_cast_to::<Lanes<L, R>>(self.bits.q.val() >> self.q_sign.val()) & self.one_r.val());
         self.addend.next = (bit_cast_to::<Lanes<L, R>>(self.y.q.val()) & self.sign.val())
-            | (bit_cast_to::<Lanes<L, R>>(-self.y.q.val()) & !self.sign.val());
-        if self.count.q.val() == 0 {
+            | (bit_cast_to::<Lanes<L, R>>(self.minus_y.q.val()) & !self.sign.val());
+        // One addition a cycle: 2 r + bit -+ y, and at last y once more where the remainder is negative.
+        self.from.next = self.doubled.val();
+        if self.last.q.val() {
+            self.from.next = self.partial.q.val();
+            self.addend.next = bit_cast_to::<Lanes<L, R>>(self.y.q.val()) & self.sign.val();
+        }
+        self.last.d.next = self.count.q.val() == 2;
+        if !self.working.q.val() {
             if self.start.val() {
+                self.working.d.next = true;
                 self.partial.d.next = self.high.val();
                 self.bits.d.next = self.low.val();
                 self.y.d.next = self.divisor.val();
+                self.minus_y.d.next = -self.divisor.val();
                 self.count.d.next = self.steps.val();
             }
         } else {
             self.count.d.next = self.count.q.val() - 1;
-            if self.count.q.val() == 1 {
-                // Digits +1 / -1 to two's complement, then a negative remainder is made good by one.
-                self.bits.d.next =
-                    ((self.bits.q.val() << 1) | self.one_q.val()) + bit_cast_to::<Lanes<L, Q>>(self.sign.val());
-                self.partial.d.next =
-                    self.partial.q.val() + (bit_cast_to::<Lanes<L, R>>(self.y.q.val()) & self.sign.val());
-            } else {
-                self.partial.d.next = self.doubled.val() + self.addend.val();
-                self.bits.d.next =
-                    (self.bits.q.val() << 1) | (bit_cast_to::<Lanes<L, Q>>(!self.sign.val()) & self.one_q.val());
-            }
+            self.working.d.next = !self.last.q.val();
+            self.partial.d.next = self.from.val() + self.addend.val();
+            // Digits +1 / -1 to two's complement: the bits of the signs, twice that and one; and one less where the
+            // remainder is made good, which clears that one. So the last step shifts in a sign, too.
+            self.bits.d.next =
+                (self.bits.q.val() << 1) | (bit_cast_to::<Lanes<L, Q>>(!self.sign.val()) & self.one_q.val());
         }
     }
 
@@ -125,4 +139,4 @@ impl<const L: usize, const Q: usize, const R: usize> Logic for Divider<L, Q, R> 
     }
 }
 
-latches! { [const L: usize, const Q: usize, const R: usize] Divider<L, Q, R>: count, partial, bits, y }
+latches! { [const L: usize, const Q: usize, const R: usize] Divider<L, Q, R>: count, working, last, partial, bits, y, minus_y }
