@@ -122,7 +122,7 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "ecp5-85k",
         part: "Lattice LFE5U-85F, speed grade 6",
-        pass: "synth_ecp5",
+        pass: "synth_ecp5 -nowidelut",
         inner: "",
         new_yosys: false,
         holds: Some([83_640, 83_640, 208, 156]),
@@ -134,7 +134,7 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "ecp5-25k",
         part: "Lattice LFE5U-25F, speed grade 6",
-        pass: "synth_ecp5",
+        pass: "synth_ecp5 -nowidelut",
         inner: "",
         new_yosys: false,
         holds: Some([24_288, 24_288, 56, 28]),

@@ -73,7 +73,7 @@ pub fn yosys_synth_ecp5(design: &Design) -> Result<CellReport, CosimError> {
     let sources: Vec<String> = sources.iter().map(|source| format!("\"{}\"", source.display())).collect();
     // A script rather than options, so that a blank in a path does no harm.
     let text = format!(
-        "read_verilog -sv {}\nsynth_ecp5 -top {} -json \"{}\"\n",
+        "read_verilog -sv {}\nsynth_ecp5 -nowidelut -top {} -json \"{}\"\n",
         sources.join(" "),
         design.top,
         json.display()
