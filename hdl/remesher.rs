@@ -3,13 +3,14 @@
 //! the next base triangle overlaps the sweep of the present one.
 //!
 //! ```text
-//! in -> triangle_setup -+-> edge_setup ------+-> sweep -> walkers -> commands -> out (the step port)
-//!                       +-> interior_setup --+   scalars  vertices   commands, rounding
+//! in -> triangle_setup -+-> edge_setup ------+-> sweep -> walkers -+-----------+-> queue -> out (the step port)
+//!                       +-> interior_setup --+   scalars  vertices +-> commands +
 //! ```
 //! (Gumhold & Huettner 1999, section 3, with the amendments that make it a tiling; see docs/blocks/remesher.md.)
 //!
-//! Interval: one step a cycle, but a base triangle takes max(3 W, 2 W + 4 L + 7) + 17 cycles at least, its set-up.
-//! Latency: max(3 W + 14, 2 W + 4 L + 21) + 6 at most.
+//! Interval: one step a cycle, but a base triangle takes max(3 W + 28, 2 W + 3 L + 48) cycles at most in
+//! its set-up, which it waits for. Latency: 10 more. A stall of `out` stops the sweep by way of the queue; the walkers, which
+//! hold the wide registers, never stall.
 //!
 //! | port            | format           | range |
 //! | in_p0..p2       | 3 x signed N     | grid corners, whole      |   Golden: models::remesher::golden
@@ -24,16 +25,20 @@ mod commands;
 mod edge_measure;
 mod edge_setup;
 mod interior_setup;
+mod queue;
 mod sweep;
 mod triangle_setup;
+mod upper_edge;
 mod walkers;
 
 pub use commands::Commands;
 pub use edge_measure::EdgeMeasure;
 pub use edge_setup::{EdgeSetup, EdgeState};
 pub use interior_setup::{InteriorSetup, InteriorState};
+pub use queue::StepQueue;
 pub use sweep::{OpCode, Sweep, SweepState};
 pub use triangle_setup::{SetupState, TriangleSetup};
+pub use upper_edge::UpperEdge;
 pub use walkers::Walkers;
 
 use crate::prelude::*;
@@ -92,8 +97,9 @@ pub struct Remesher<
     edges: Gated<EdgeSetup<L, V, W, X, T>>,
     interior: Gated<InteriorSetup<L, V, W, T, A, P>>,
     sweep: Gated<Sweep<T>>,
-    walkers: Gated<Walkers<L, V, W, T>>,
-    commands: Gated<Commands<L, V, W, K>>,
+    walkers: Gated<Walkers<L, V, W, X>>,
+    commands: Gated<Commands<K>>,
+    queue: Gated<StepQueue<L, V>>,
 }
 
 impl<
@@ -136,6 +142,7 @@ impl<
             sweep: Gated::default(),
             walkers: Gated::default(),
             commands: Gated::new(Commands::new(depth)),
+            queue: Gated::default(),
         }
     }
 }
@@ -154,7 +161,7 @@ impl<
 {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, triangle, edges, interior, sweep, walkers, commands);
+        clock!(self, clock, triangle, edges, interior, sweep, walkers, commands, queue);
         self.triangle.in_valid.next = self.in_valid.val();
         self.triangle.in_p0.next = self.in_p0.val();
         self.triangle.in_p1.next = self.in_p1.val();
@@ -205,9 +212,9 @@ impl<
         self.walkers.step_ab.next = self.edges.step_ab.val();
         self.walkers.step_ac.next = self.edges.step_ac.val();
         self.walkers.step_bc.next = self.edges.step_bc.val();
-        self.walkers.rem_ab.next = self.edges.rem_ab.val();
-        self.walkers.rem_ac.next = self.edges.rem_ac.val();
-        self.walkers.rem_bc.next = self.edges.rem_bc.val();
+        self.walkers.start_ab.next = self.edges.start_ab.val();
+        self.walkers.start_ac.next = self.edges.start_ac.val();
+        self.walkers.start_bc.next = self.edges.start_bc.val();
         self.walkers.side.next = self.interior.side.val();
         self.walkers.sweep.next = self.interior.sweep.val();
         self.walkers.base_b.next = self.interior.base_b.val();
@@ -218,16 +225,17 @@ impl<
         self.walkers.op_second.next = self.sweep.op_second.val();
         self.walkers.op_on_bc.next = self.sweep.op_on_bc.val();
         self.walkers.op_at_end.next = self.sweep.op_at_end.val();
-        self.walkers.op_base.next = self.sweep.op_base.val();
+        self.walkers.op_climbs.next = self.sweep.op_climbs.val();
+        self.walkers.op_falls.next = self.sweep.op_falls.val();
         self.walkers.op_column_edge.next = self.sweep.op_column_edge.val();
         self.walkers.op_edge.next = self.sweep.op_edge.val();
-        self.walkers.op_edge_next.next = self.sweep.op_edge_next.val();
+        self.walkers.op_right_edge.next = self.sweep.op_right_edge.val();
         self.walkers.op_advance.next = self.sweep.op_advance.val();
         self.walkers.op_turn.next = self.sweep.op_turn.val();
         self.walkers.op_keep.next = self.sweep.op_keep.val();
         self.walkers.op_swap.next = self.sweep.op_swap.val();
         self.walkers.op_last.next = self.sweep.op_last.val();
-        self.sweep.op_ready.next = self.walkers.op_ready.val();
+        self.sweep.room.next = self.queue.room.val();
         self.commands.in_valid.next = self.walkers.out_valid.val();
         self.commands.in_kind.next = self.walkers.out_kind.val();
         self.commands.in_left.next = self.walkers.out_left.val();
@@ -235,18 +243,23 @@ impl<
         self.commands.in_keep.next = self.walkers.out_keep.val();
         self.commands.in_swap.next = self.walkers.out_swap.val();
         self.commands.in_last.next = self.walkers.out_last.val();
-        self.commands.in_left_vertex.next = self.walkers.out_left_vertex.val();
-        self.commands.in_right_vertex.next = self.walkers.out_right_vertex.val();
-        self.walkers.out_ready.next = self.commands.in_ready.val();
-        self.out_valid.next = self.commands.out_valid.val();
-        self.out_kind.next = self.commands.out_kind.val();
-        self.out_left.next = self.commands.out_left.val();
-        self.out_right.next = self.commands.out_right.val();
-        self.out_swap.next = self.commands.out_swap.val();
-        self.out_last.next = self.commands.out_last.val();
-        self.out_left_vertex.next = self.commands.out_left_vertex.val();
-        self.out_right_vertex.next = self.commands.out_right_vertex.val();
-        self.commands.out_ready.next = self.out_ready.val();
+        self.queue.in_valid.next = self.commands.out_valid.val();
+        self.queue.in_kind.next = self.commands.out_kind.val();
+        self.queue.in_left.next = self.commands.out_left.val();
+        self.queue.in_right.next = self.commands.out_right.val();
+        self.queue.in_swap.next = self.commands.out_swap.val();
+        self.queue.in_last.next = self.commands.out_last.val();
+        self.queue.in_left_vertex.next = self.walkers.out_left_vertex.val();
+        self.queue.in_right_vertex.next = self.walkers.out_right_vertex.val();
+        self.out_valid.next = self.queue.out_valid.val();
+        self.out_kind.next = self.queue.out_kind.val();
+        self.out_left.next = self.queue.out_left.val();
+        self.out_right.next = self.queue.out_right.val();
+        self.out_swap.next = self.queue.out_swap.val();
+        self.out_last.next = self.queue.out_last.val();
+        self.out_left_vertex.next = self.queue.out_left_vertex.val();
+        self.out_right_vertex.next = self.queue.out_right_vertex.val();
+        self.queue.out_ready.next = self.out_ready.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -260,7 +273,7 @@ ports! {
         inputs: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, out_ready;
         outputs: in_ready, out_valid, out_kind, out_left, out_right, out_swap, out_last, out_left_vertex,
             out_right_vertex;
-        blocks: triangle, edges, interior, sweep, walkers, commands;
-        state: triangle, edges, interior, sweep, walkers, commands
+        blocks: triangle, edges, interior, sweep, walkers, commands, queue;
+        state: triangle, edges, interior, sweep, walkers, commands, queue
     }
 }

@@ -343,8 +343,8 @@ fn remesher_reset_in_the_middle_of_a_stream() {
 /// random base triangles one at a time, and by small ones back to back.
 #[test]
 fn remesher_latency_and_interval_are_as_documented() {
-    assert_eq!(RemesherBinding.latency(), "max(3 W + 14, 2 W + 4 L + 21) + 6 at most");
-    assert!(RemesherBinding.interval().contains("max(3 W, 2 W + 4 L + 7) + 17 a base triangle"));
+    assert_eq!(RemesherBinding.latency(), "max(3 W + 28, 2 W + 3 L + 48) + 10 at most");
+    assert!(RemesherBinding.interval().contains("max(3 W + 28, 2 W + 3 L + 48) a base triangle"));
     WIDTH_SETS.par_iter().for_each(|set| {
         let (w, l) = (set.accumulator_bits(), set.components);
         let mut random = Random::new(1);
@@ -360,7 +360,9 @@ fn remesher_latency_and_interval_are_as_documented() {
             assert_eq!(run.unwrap().bases, 1);
             latency = latency.max(first.expect("a first beat"));
         }
-        assert_eq!(latency, (3 * w + 14).max(2 * w + 4 * l + 21) + 6, "{}", set.name);
+        let most = (3 * w + 28).max(2 * w + 3 * l + 48);
+        // The tenth cycle is that of a roof over its first corner, which the random ones need not have.
+        assert!((most + 9..=most + 10).contains(&latency), "{}: {latency}", set.name);
 
         let small = (0..300).map(|_| {
             let corners = corners_in(&mut random, 2, [0; 3]);
@@ -377,7 +379,7 @@ fn remesher_latency_and_interval_are_as_documented() {
             Ok(())
         });
         assert_eq!(run.unwrap().bases, 300);
-        assert_eq!(interval, (3 * w).max(2 * w + 4 * l + 7) + 17, "{}", set.name);
+        assert_eq!(interval, most, "{}", set.name);
     });
 }
 

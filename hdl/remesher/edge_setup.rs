@@ -2,17 +2,17 @@
 //! Steps of the three edge walkers of a base triangle, by one divider used three times.
 //!
 //! For the edge from its end lo to its end hi, n grid steps long:
-//!     D = floor((V[hi] - V[lo]) * 2^g / n + 1/2),   rem = (V[hi] - V[lo]) * 2^g - n * D
-//! so that a walk from lo (V[lo] * 2^g, step +D) and one from hi (V[hi] * 2^g - rem, step -D) meet the same bits.
+//!     D = floor((V[hi] - V[lo]) * 2^g / n + 1/2),   start = V[hi] * 2^g + 2^(g-1) - ((V[hi] - V[lo]) * 2^g - n * D)
+//! so that a walk from lo (V[lo] * 2^g + 2^(g-1), step +D) and one from hi (start, step -D) meet the same bits.
 //! Edges of n <= 1 have no vertex between their corners and are skipped.
 //!
-//! | port            | format       | range |   Latency 3 (W + 4) at most
-//! | start           | Bit          | one cycle; corners, lengths and directions stand still until `done` |
+//! | port            | format       | range |   Latency 3 (W + 3) + 3 at most
+//! | start           | Bit          | one cycle; AB stands still from the cycle before to the one behind, the rest until `busy` falls |
 //! | corner_*        | L x signed V | whole | Golden: models::remesher (edge)   Error: |D - exact| <= 1/2
 //! | n_*             | signed T     | >= 0  |
-//! | step_*, rem_*   | L x signed W, T | |
+//! | step_*, start_* | L x signed W | |
 //!
-//! After `start` the first edge (AB) is read at once; AC and BC are read later, when the roles of A and B are final.
+//! The difference for the next division is taken while the divider is at work, and the start of the walk from hi behind it.
 
 use crate::prelude::*;
 use crate::primitives::Divider;
@@ -47,27 +47,52 @@ pub struct EdgeSetup<const L: usize, const V: usize, const W: usize, const X: us
     pub step_ab: Output<Lanes<L, W>>,
     pub step_ac: Output<Lanes<L, W>>,
     pub step_bc: Output<Lanes<L, W>>,
-    pub rem_ab: Output<Lanes<L, T>>,
-    pub rem_ac: Output<Lanes<L, T>>,
-    pub rem_bc: Output<Lanes<L, T>>,
+    pub start_ab: Output<Lanes<L, W>>,
+    pub start_ac: Output<Lanes<L, W>>,
+    pub start_bc: Output<Lanes<L, W>>,
     state: Register<EdgeState>,
     /// The divider has been started for the present edge.
     running: Register<Bit>,
     step_ab_reg: DataRegister<Lanes<L, W>>,
     step_ac_reg: DataRegister<Lanes<L, W>>,
     step_bc_reg: DataRegister<Lanes<L, W>>,
-    rem_ab_reg: DataRegister<Lanes<L, T>>,
-    rem_ac_reg: DataRegister<Lanes<L, T>>,
-    rem_bc_reg: DataRegister<Lanes<L, T>>,
+    start_ab_reg: DataRegister<Lanes<L, W>>,
+    start_ac_reg: DataRegister<Lanes<L, W>>,
+    start_bc_reg: DataRegister<Lanes<L, W>>,
+    /// The edge whose difference is taken: 0 AB, 1 AC, 2 BC; and that this was so in the cycle before, too.
+    ahead: Register<U<2>>,
+    fresh: Register<Bit>,
+    /// And in the one before: the difference stands.
+    settled: Register<Bit>,
+    /// And in the one before that: the numerator stands.
+    steady: Register<Bit>,
+    /// Its ends: 0 A, 1 B, 2 C.
+    lo_from: DataRegister<U<2>>,
+    hi_from: DataRegister<U<2>>,
+    difference: DataRegister<Lanes<L, X>>,
+    numerator: DataRegister<Lanes<L, X>>,
+    n_ahead: DataRegister<S<T>>,
+    /// It has a vertex between its corners: n > 1.
+    long_ahead: DataRegister<Bit>,
+    hi_ahead: DataRegister<Lanes<L, V>>,
+    /// Of the edge in the divider.
+    n_now: DataRegister<S<T>>,
+    hi_now: DataRegister<Lanes<L, V>>,
+    /// The start of this edge is due: 1 AB, 2 AC, 3 BC.
+    closing: Register<U<2>>,
+    rem: DataRegister<Lanes<L, T>>,
     divider: Divider<L, W, T>,
     finished: Register<Bit>,
     lo: Wire<Lanes<L, V>>,
     hi: Wire<Lanes<L, V>>,
     n: Wire<S<T>>,
-    remainder: Wire<Lanes<L, T>>,
-    numerator: Wire<Lanes<L, X>>,
+    far: Wire<Lanes<L, W>>,
+    begins: Wire<Bit>,
+    skips: Wire<Bit>,
     guard_shift: Constant<U<6>>,
     quotient_bits: Constant<U<6>>,
+    guard: Constant<U<6>>,
+    half: Constant<Lanes<L, W>>,
 }
 
 impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: usize> EdgeSetup<L, V, W, X, T> {
@@ -90,26 +115,44 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             step_ab: Output::default(),
             step_ac: Output::default(),
             step_bc: Output::default(),
-            rem_ab: Output::default(),
-            rem_ac: Output::default(),
-            rem_bc: Output::default(),
+            start_ab: Output::default(),
+            start_ac: Output::default(),
+            start_bc: Output::default(),
             state: Register::default(),
             running: Register::default(),
             step_ab_reg: DataRegister::default(),
             step_ac_reg: DataRegister::default(),
             step_bc_reg: DataRegister::default(),
-            rem_ab_reg: DataRegister::default(),
-            rem_ac_reg: DataRegister::default(),
-            rem_bc_reg: DataRegister::default(),
+            start_ab_reg: DataRegister::default(),
+            start_ac_reg: DataRegister::default(),
+            start_bc_reg: DataRegister::default(),
+            ahead: Register::default(),
+            fresh: Register::default(),
+            settled: Register::default(),
+            steady: Register::default(),
+            lo_from: DataRegister::default(),
+            hi_from: DataRegister::default(),
+            difference: DataRegister::default(),
+            numerator: DataRegister::default(),
+            n_ahead: DataRegister::default(),
+            long_ahead: DataRegister::default(),
+            hi_ahead: DataRegister::default(),
+            n_now: DataRegister::default(),
+            hi_now: DataRegister::default(),
+            closing: Register::default(),
+            rem: DataRegister::default(),
             divider: Divider::default(),
             finished: Register::default(),
             lo: Wire::default(),
             hi: Wire::default(),
             n: Wire::default(),
-            remainder: Wire::default(),
-            numerator: Wire::default(),
+            far: Wire::default(),
+            begins: Wire::default(),
+            skips: Wire::default(),
             guard_shift: Constant::new(U::new((W - V) as i64)),
             quotient_bits: Constant::new(U::new(W as i64)),
+            guard: Constant::new(U::new((W - V - 1) as i64)),
+            half: Constant::new(Lanes::new([if W == V + 1 { 0 } else { 1 << (W - V - 2) }; L])),
         }
     }
 }
@@ -127,79 +170,136 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
 {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, running, finished);
-        dff_setup!(self, clock, step_ab_reg, step_ac_reg, step_bc_reg, rem_ab_reg, rem_ac_reg, rem_bc_reg);
+        dff_setup!(self, clock, state, running, finished, ahead, fresh, settled, steady, lo_from, hi_from, closing);
+        dff_setup!(self, clock, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg);
+        dff_setup!(self, clock, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, rem);
         clock!(self, clock, divider);
-        self.busy.next = self.state.q.val() != EdgeState::Idle;
+        self.busy.next = self.state.q.val() != EdgeState::Idle || self.closing.q.val() != 0;
         self.step_ab.next = self.step_ab_reg.q.val();
         self.step_ac.next = self.step_ac_reg.q.val();
         self.step_bc.next = self.step_bc_reg.q.val();
-        self.rem_ab.next = self.rem_ab_reg.q.val();
-        self.rem_ac.next = self.rem_ac_reg.q.val();
-        self.rem_bc.next = self.rem_bc_reg.q.val();
+        self.start_ab.next = self.start_ab_reg.q.val();
+        self.start_ac.next = self.start_ac_reg.q.val();
+        self.start_bc.next = self.start_bc_reg.q.val();
 
-        // The present edge, from its canonical end.
-        self.n.next = self.n_ab.val();
-        self.lo.next = self.corner_a.val();
-        self.hi.next = self.corner_b.val();
-        if self.state.q.val() == EdgeState::First {
+        // The edge ahead, from its canonical end: which corners, then their data.
+        if self.ahead.q.val() == 0 {
+            self.n.next = self.n_ab.val();
+            self.lo_from.d.next = 0.into();
+            self.hi_from.d.next = 1.into();
             if self.a_hi_ab.val() {
-                self.lo.next = self.corner_b.val();
-                self.hi.next = self.corner_a.val();
+                self.lo_from.d.next = 1.into();
+                self.hi_from.d.next = 0.into();
             }
-        } else if self.state.q.val() == EdgeState::Second {
+        } else if self.ahead.q.val() == 1 {
             self.n.next = self.n_ac.val();
-            self.hi.next = self.corner_c.val();
+            self.lo_from.d.next = 0.into();
+            self.hi_from.d.next = 2.into();
             if self.a_hi_ac.val() {
-                self.lo.next = self.corner_c.val();
-                self.hi.next = self.corner_a.val();
+                self.lo_from.d.next = 2.into();
+                self.hi_from.d.next = 0.into();
             }
         } else {
             self.n.next = self.n_bc.val();
-            self.lo.next = self.corner_b.val();
-            self.hi.next = self.corner_c.val();
+            self.lo_from.d.next = 1.into();
+            self.hi_from.d.next = 2.into();
             if self.b_hi_bc.val() {
-                self.lo.next = self.corner_c.val();
-                self.hi.next = self.corner_b.val();
+                self.lo_from.d.next = 2.into();
+                self.hi_from.d.next = 1.into();
             }
         }
-        // floor(a / n + 1/2) = floor((2a + n) / 2n); 2a + n needs V + 1 + g + 1 + 1 = W + 2 bits.
-        self.numerator.next = ((bit_cast_to::<Lanes<L, X>>(self.hi.val()) - bit_cast_to::<Lanes<L, X>>(self.lo.val()))
-            << self.guard_shift.val())
-            + bit_cast_to::<Lanes<L, X>>(self.n.val());
-        self.divider.high.next = bit_cast_to::<Lanes<L, T>>(self.numerator.val() >> self.quotient_bits.val());
-        self.divider.low.next = bit_cast_to::<Lanes<L, W>>(self.numerator.val());
-        self.divider.divisor.next = self.n.val() << 1;
-        // (2a + n) - 2n D = 2 (a - n D) + n, so the remainder of a is half of what n leaves.
-        self.remainder.next = (self.divider.remainder.val() - bit_cast_to::<Lanes<L, T>>(self.n.val())) >> 1;
+        if self.lo_from.q.val().get_bit(1) {
+            self.lo.next = self.corner_c.val();
+        } else if self.lo_from.q.val().get_bit(0) {
+            self.lo.next = self.corner_b.val();
+        } else {
+            self.lo.next = self.corner_a.val();
+        }
+        if self.hi_from.q.val().get_bit(1) {
+            self.hi.next = self.corner_c.val();
+        } else if self.hi_from.q.val().get_bit(0) {
+            self.hi.next = self.corner_b.val();
+        } else {
+            self.hi.next = self.corner_a.val();
+        }
+        self.difference.d.next = bit_cast_to::<Lanes<L, X>>(self.hi.val()) - bit_cast_to::<Lanes<L, X>>(self.lo.val());
+        self.n_ahead.d.next = self.n.val();
+        self.long_ahead.d.next = (self.n.val() >> 1) != 0;
+        self.hi_ahead.d.next = self.hi.val();
 
-        self.divider.start.next = false;
+        // floor(a / n + 1/2) = floor((2a + n) / 2n); 2a + n needs V + 1 + g + 1 + 1 = W + 2 bits.
+        self.numerator.d.next =
+            (self.difference.q.val() << self.guard_shift.val()) + bit_cast_to::<Lanes<L, X>>(self.n_ahead.q.val());
+        self.divider.high.next = bit_cast_to::<Lanes<L, T>>(self.numerator.q.val() >> self.quotient_bits.val());
+        self.divider.low.next = bit_cast_to::<Lanes<L, W>>(self.numerator.q.val());
+        self.divider.divisor.next = self.n_ahead.q.val() << 1;
+        // (2a + n) - 2n D = 2 (a - n D) + n, so the remainder of a is half of what n leaves.
+        self.rem.d.next = (self.divider.remainder.val() - bit_cast_to::<Lanes<L, T>>(self.n_now.q.val())) >> 1;
+        self.far.next = ((bit_cast_to::<Lanes<L, W>>(self.hi_now.q.val()) << self.guard.val()) | self.half.val())
+            - bit_cast_to::<Lanes<L, W>>(self.rem.q.val());
+        self.start_ab_reg.enable.next = self.closing.q.val() == 1;
+        self.start_ab_reg.d.next = self.far.val();
+        self.start_ac_reg.enable.next = self.closing.q.val() == 2;
+        self.start_ac_reg.d.next = self.far.val();
+        self.start_bc_reg.enable.next = self.closing.q.val() == 3;
+        self.start_bc_reg.d.next = self.far.val();
+
+        self.begins.next = self.state.q.val() != EdgeState::Idle
+            && !self.running.q.val()
+            && self.steady.q.val()
+            && self.long_ahead.q.val();
+        self.skips.next = self.state.q.val() != EdgeState::Idle
+            && !self.running.q.val()
+            && self.steady.q.val()
+            && !self.long_ahead.q.val();
+        self.divider.start.next = self.begins.val();
         self.finished.d.next = self.divider.done.val();
-        if self.state.q.val() == EdgeState::Idle {
+        self.fresh.d.next = true;
+        self.settled.d.next = self.fresh.q.val();
+        self.steady.d.next = self.settled.q.val();
+        self.closing.d.next = 0.into();
+        if self.begins.val() || self.skips.val() {
+            self.ahead.d.next = self.ahead.q.val() + 1;
+            self.fresh.d.next = false;
+            self.settled.d.next = false;
+            self.steady.d.next = false;
+        }
+        if self.begins.val() {
+            self.running.d.next = true;
+            self.n_now.d.next = self.n_ahead.q.val();
+            self.hi_now.d.next = self.hi_ahead.q.val();
+        }
+        if self.finished.q.val() {
             self.running.d.next = false;
+        }
+        if self.state.q.val() == EdgeState::Idle {
+            self.ahead.d.next = 0.into();
             if self.start.val() {
                 self.state.d.next = EdgeState::First;
             }
-        } else {
-            if !self.running.q.val() && self.n.val() > 1 {
-                self.divider.start.next = true;
-                self.running.d.next = true;
+        } else if self.state.q.val() == EdgeState::First {
+            if self.finished.q.val() || self.skips.val() {
+                self.state.d.next = EdgeState::Second;
             }
-            if self.finished.q.val() || (!self.running.q.val() && self.n.val() <= 1) {
-                self.running.d.next = false;
-                if self.state.q.val() == EdgeState::First {
-                    self.state.d.next = EdgeState::Second;
-                    self.step_ab_reg.d.next = self.divider.quotient.val();
-                    self.rem_ab_reg.d.next = self.remainder.val();
-                } else if self.state.q.val() == EdgeState::Second {
-                    self.state.d.next = EdgeState::Third;
-                    self.step_ac_reg.d.next = self.divider.quotient.val();
-                    self.rem_ac_reg.d.next = self.remainder.val();
-                } else {
-                    self.state.d.next = EdgeState::Idle;
-                    self.step_bc_reg.d.next = self.divider.quotient.val();
-                    self.rem_bc_reg.d.next = self.remainder.val();
-                }
+            if self.finished.q.val() {
+                self.closing.d.next = 1.into();
+                self.step_ab_reg.d.next = self.divider.quotient.val();
+            }
+        } else if self.state.q.val() == EdgeState::Second {
+            if self.finished.q.val() || self.skips.val() {
+                self.state.d.next = EdgeState::Third;
+            }
+            if self.finished.q.val() {
+                self.closing.d.next = 2.into();
+                self.step_ac_reg.d.next = self.divider.quotient.val();
+            }
+        } else {
+            if self.finished.q.val() || self.skips.val() {
+                self.state.d.next = EdgeState::Idle;
+            }
+            if self.finished.q.val() {
+                self.closing.d.next = 3.into();
+                self.step_bc_reg.d.next = self.divider.quotient.val();
             }
         }
     }
@@ -209,4 +309,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, rem_ab_reg, rem_ac_reg, rem_bc_reg, divider, finished }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg, ahead, fresh, settled, steady, lo_from, hi_from, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, closing, rem, divider, finished }

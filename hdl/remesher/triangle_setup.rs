@@ -7,7 +7,7 @@
 //! lies above AB, and s where C lies below A (decreasing), after which A and B change places and the triangle is an
 //! increasing one. All coordinates leave relative to A. (Gumhold & Huettner 1999, section 3.1, amended.)
 //!
-//! | port          | format        | range |   Latency 12, then the slower of edge_setup and interior_setup
+//! | port          | format        | range |   Latency 18, then the slower of edge_setup and interior_setup
 //! | in_*          | stream        | corners 3 x signed N, vertex data L x signed V |
 //! | record_*      | stream        | stands still from `record_valid` to `record_ready` |
 //! | s_*, d_*, n_* | signed T      | relative to A, mirrored | Golden: models::remesher (setup)   Error 0
@@ -20,15 +20,25 @@ use crate::remesher::EdgeMeasure;
 #[allow(missing_docs)]
 pub enum SetupState {
     Idle,
-    /// Lengths and main directions of the edges.
+    /// Lengths and main directions of the edges, and which is longer than which, in five cycles.
     Measure,
-    /// Rotates the longest edge to AB.
+    /// Which edge is the longest?
     Choose,
-    /// Swaps A and B so that s grows from A to B.
+    /// Rotates it to AB.
+    Rotate,
+    /// Takes the ends along the sweep direction.
+    Ends,
+    /// Does s grow from A to B?
     Orient,
+    /// Swaps A and B where it does not.
+    Exchange,
     /// Four products of the two candidate areas.
     Areas,
-    /// Takes the larger area, mirrors d.
+    /// Sizes of the areas.
+    Sizes,
+    /// Which is larger?
+    Compare,
+    /// Takes it, mirrors d.
     Plane,
     /// Roof, increasing or decreasing.
     Case,
@@ -92,6 +102,10 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     dir_ab: DataRegister<U<2>>,
     dir_bc: DataRegister<U<2>>,
     dir_ca: DataRegister<U<2>>,
+    /// AB is as long as BC; AB as CA; BC as CA.
+    ab_bc: DataRegister<Bit>,
+    ab_ca: DataRegister<Bit>,
+    bc_ca: DataRegister<Bit>,
     odd: DataRegister<Bit>,
     decreasing: DataRegister<Bit>,
     is_roof: DataRegister<Bit>,
@@ -104,17 +118,34 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     db_other: DataRegister<S<T>>,
     dc_other: DataRegister<S<T>>,
     product: DataRegister<S<A>>,
+    factor_a: DataRegister<S<T>>,
+    factor_b: DataRegister<S<T>>,
     area_other: DataRegister<S<A>>,
+    /// The longest edge is BC; or CA.
+    longest_bc: DataRegister<Bit>,
+    longest_ca: DataRegister<Bit>,
+    /// A and B change places in the next cycle.
+    backwards: DataRegister<Bit>,
+    negative: DataRegister<Bit>,
+    negative_other: DataRegister<Bit>,
+    takes_other: DataRegister<Bit>,
+    hi_ac: DataRegister<Bit>,
+    hi_bc: DataRegister<Bit>,
+    /// Ends of the edges along their main directions.
+    a_along_ab: DataRegister<S<T>>,
+    b_along_ab: DataRegister<S<T>>,
+    a_along_ca: DataRegister<S<T>>,
+    c_along_ca: DataRegister<S<T>>,
+    b_along_bc: DataRegister<S<T>>,
+    c_along_bc: DataRegister<S<T>>,
     multiplier: crate::primitives::Multiplier<T, T, A>,
-    edge_ab: EdgeMeasure<T>,
-    edge_bc: EdgeMeasure<T>,
-    edge_ca: EdgeMeasure<T>,
+    edge_ab: Gated<EdgeMeasure<T>>,
+    edge_bc: Gated<EdgeMeasure<T>>,
+    edge_ca: Gated<EdgeMeasure<T>>,
     exchange: Wire<Bit>,
     axis: Wire<U<2>>,
     side_axis: Wire<U<2>>,
     other_axis: Wire<U<2>>,
-    magnitude: Wire<S<A>>,
-    magnitude_other: Wire<S<A>>,
 }
 
 impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: usize> Logic
@@ -122,12 +153,33 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca);
+        dff_setup!(
+            self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc,
+            ab_ca, bc_ca
+        );
         dff_setup!(self, clock, odd, decreasing, is_roof);
-        dff_setup!(self, clock, sb, sc, db, dc, area, db_other, dc_other, product, area_other);
-        clock!(self, clock, multiplier);
+        dff_setup!(self, clock, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other);
+        dff_setup!(
+            self,
+            clock,
+            longest_bc,
+            longest_ca,
+            backwards,
+            negative,
+            negative_other,
+            takes_other,
+            hi_ac,
+            hi_bc,
+            a_along_ab,
+            b_along_ab,
+            a_along_ca,
+            c_along_ca,
+            b_along_bc,
+            c_along_bc
+        );
+        clock!(self, clock, multiplier, edge_ab, edge_bc, edge_ca);
         self.in_ready.next = self.state.q.val() == SetupState::Idle;
-        self.edge_start.next = self.state.q.val() == SetupState::Areas && self.round.q.val() == 0;
+        self.edge_start.next = self.state.q.val() == SetupState::Areas && self.round.q.val() == 1;
         self.interior_start.next = self.state.q.val() == SetupState::Interior;
         self.record_valid.next = self.state.q.val() == SetupState::Wait && !self.units_busy.val();
         self.corner_a.next = self.va.q.val();
@@ -137,10 +189,16 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.n_ac.next = self.len_ca.q.val();
         self.n_bc.next = self.len_bc.q.val();
         self.a_hi_ab.next = self.decreasing.q.val();
-        self.a_hi_ac.next =
-            self.pa.q.val().get_bit(self.dir_ca.q.val().index()) > self.pc.q.val().get_bit(self.dir_ca.q.val().index());
-        self.b_hi_bc.next =
-            self.pb.q.val().get_bit(self.dir_bc.q.val().index()) > self.pc.q.val().get_bit(self.dir_bc.q.val().index());
+        self.a_hi_ac.next = self.hi_ac.q.val();
+        self.hi_ac.d.next = self.a_along_ca.q.val() > self.c_along_ca.q.val();
+        self.b_hi_bc.next = self.hi_bc.q.val();
+        self.hi_bc.d.next = self.b_along_bc.q.val() > self.c_along_bc.q.val();
+        self.a_along_ab.d.next = self.pa.q.val().get_bit(self.dir_ab.q.val().index());
+        self.b_along_ab.d.next = self.pb.q.val().get_bit(self.dir_ab.q.val().index());
+        self.a_along_ca.d.next = self.pa.q.val().get_bit(self.dir_ca.q.val().index());
+        self.c_along_ca.d.next = self.pc.q.val().get_bit(self.dir_ca.q.val().index());
+        self.b_along_bc.d.next = self.pb.q.val().get_bit(self.dir_bc.q.val().index());
+        self.c_along_bc.d.next = self.pc.q.val().get_bit(self.dir_bc.q.val().index());
         self.s_b.next = self.sb.q.val();
         self.s_c.next = self.sc.q.val();
         self.d_b.next = self.db.q.val();
@@ -168,29 +226,24 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
             self.side_axis.next = 0.into();
             self.other_axis.next = 1.into();
         }
-        if self.area.q.val() < 0 {
-            self.magnitude.next = -self.area.q.val();
-        } else {
-            self.magnitude.next = self.area.q.val();
-        }
-        if self.area_other.q.val() < 0 {
-            self.magnitude_other.next = -self.area_other.q.val();
-        } else {
-            self.magnitude_other.next = self.area_other.q.val();
-        }
         // Products s_B d_C, d_B s_C of the first candidate, then of the other.
-        self.multiplier.a.next = self.sb.q.val();
-        self.multiplier.b.next = self.dc.q.val();
+        self.factor_a.d.next = self.sb.q.val();
+        self.factor_b.d.next = self.dc.q.val();
         if self.round.q.val() == 2 {
-            self.multiplier.a.next = self.db.q.val();
-            self.multiplier.b.next = self.sc.q.val();
+            self.factor_a.d.next = self.db.q.val();
+            self.factor_b.d.next = self.sc.q.val();
         } else if self.round.q.val() == 3 {
-            self.multiplier.b.next = self.dc_other.q.val();
+            self.factor_b.d.next = self.dc_other.q.val();
         } else if self.round.q.val() == 4 {
-            self.multiplier.a.next = self.db_other.q.val();
-            self.multiplier.b.next = self.sc.q.val();
+            self.factor_a.d.next = self.db_other.q.val();
+            self.factor_b.d.next = self.sc.q.val();
         }
+        self.multiplier.a.next = self.factor_a.q.val();
+        self.multiplier.b.next = self.factor_b.q.val();
 
+        self.ab_bc.d.next = self.len_ab.q.val() >= self.len_bc.q.val();
+        self.ab_ca.d.next = self.len_ab.q.val() >= self.len_ca.q.val();
+        self.bc_ca.d.next = self.len_bc.q.val() >= self.len_ca.q.val();
         self.exchange.next = false;
         match self.state.q.val() {
             SetupState::Idle => {
@@ -202,26 +255,39 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.vb.d.next = self.in_v1.val();
                     self.vc.d.next = self.in_v2.val();
                     self.state.d.next = SetupState::Measure;
+                    self.round.d.next = 0.into();
                 }
             }
             SetupState::Measure => {
+                self.round.d.next = self.round.q.val() + 1;
                 self.len_ab.d.next = self.edge_ab.length.val();
                 self.len_bc.d.next = self.edge_bc.length.val();
                 self.len_ca.d.next = self.edge_ca.length.val();
                 self.dir_ab.d.next = self.edge_ab.direction.val();
                 self.dir_bc.d.next = self.edge_bc.direction.val();
                 self.dir_ca.d.next = self.edge_ca.direction.val();
-                self.state.d.next = SetupState::Choose;
+                if self.round.q.val() == 4 {
+                    self.state.d.next = SetupState::Choose;
+                }
             }
             SetupState::Choose => {
                 self.odd.d.next = false;
                 self.decreasing.d.next = false;
                 self.is_roof.d.next = false;
-                self.state.d.next = SetupState::Orient;
-                self.round.d.next = 0.into();
-                if self.len_ab.q.val() >= self.len_bc.q.val() && self.len_ab.q.val() >= self.len_ca.q.val() {
+                self.state.d.next = SetupState::Rotate;
+                self.longest_bc.d.next = false;
+                self.longest_ca.d.next = false;
+                if self.ab_bc.q.val() && self.ab_ca.q.val() {
                     // AB is P0 P1.
-                } else if self.len_bc.q.val() >= self.len_ca.q.val() {
+                } else if self.bc_ca.q.val() {
+                    self.longest_bc.d.next = true;
+                } else {
+                    self.longest_ca.d.next = true;
+                }
+            }
+            SetupState::Rotate => {
+                self.state.d.next = SetupState::Ends;
+                if self.longest_bc.q.val() {
                     self.pa.d.next = self.pb.q.val();
                     self.pb.d.next = self.pc.q.val();
                     self.pc.d.next = self.pa.q.val();
@@ -234,7 +300,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.dir_ab.d.next = self.dir_bc.q.val();
                     self.dir_bc.d.next = self.dir_ca.q.val();
                     self.dir_ca.d.next = self.dir_ab.q.val();
-                } else {
+                } else if self.longest_ca.q.val() {
                     self.pa.d.next = self.pc.q.val();
                     self.pb.d.next = self.pa.q.val();
                     self.pc.d.next = self.pb.q.val();
@@ -249,18 +315,22 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.dir_ca.d.next = self.dir_bc.q.val();
                 }
             }
+            SetupState::Ends => {
+                self.state.d.next = SetupState::Orient;
+            }
             SetupState::Orient => {
                 if self.len_ab.q.val() == 0 {
                     // Nothing to divide: one triangle of the three corners as they came.
                     self.state.d.next = SetupState::Wait;
                 } else {
-                    self.state.d.next = SetupState::Areas;
-                    if self.pa.q.val().get_bit(self.axis.val().index())
-                        > self.pb.q.val().get_bit(self.axis.val().index())
-                    {
-                        self.exchange.next = true;
-                    }
+                    self.state.d.next = SetupState::Exchange;
                 }
+                self.backwards.d.next = self.a_along_ab.q.val() > self.b_along_ab.q.val();
+            }
+            SetupState::Exchange => {
+                self.exchange.next = self.backwards.q.val();
+                self.round.d.next = 0.into();
+                self.state.d.next = SetupState::Areas;
             }
             SetupState::Areas => {
                 self.round.d.next = self.round.q.val() + 1;
@@ -277,27 +347,41 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     - self.pa.q.val().get_bit(self.other_axis.val().index());
                 self.dc_other.d.next = self.pc.q.val().get_bit(self.other_axis.val().index())
                     - self.pa.q.val().get_bit(self.other_axis.val().index());
-                if self.round.q.val() == 2 || self.round.q.val() == 4 {
+                if self.round.q.val() == 3 || self.round.q.val() == 5 {
                     self.product.d.next = bit_cast_to::<S<A>>(self.multiplier.p.val());
-                } else if self.round.q.val() == 3 {
+                } else if self.round.q.val() == 4 {
                     self.area.d.next = self.product.q.val() - bit_cast_to::<S<A>>(self.multiplier.p.val());
-                } else if self.round.q.val() == 5 {
+                } else if self.round.q.val() == 6 {
                     self.area_other.d.next = self.product.q.val() - bit_cast_to::<S<A>>(self.multiplier.p.val());
-                    self.state.d.next = SetupState::Plane;
+                    self.state.d.next = SetupState::Sizes;
                 }
+            }
+            SetupState::Sizes => {
+                self.state.d.next = SetupState::Compare;
+                self.negative.d.next = self.area.q.val() < 0;
+                self.negative_other.d.next = self.area_other.q.val() < 0;
+                if self.area.q.val() < 0 {
+                    self.area.d.next = -self.area.q.val();
+                }
+                if self.area_other.q.val() < 0 {
+                    self.area_other.d.next = -self.area_other.q.val();
+                }
+            }
+            SetupState::Compare => {
+                self.state.d.next = SetupState::Plane;
+                self.takes_other.d.next = self.area_other.q.val() > self.area.q.val();
             }
             SetupState::Plane => {
                 self.state.d.next = SetupState::Case;
-                if self.magnitude_other.val() > self.magnitude.val() {
-                    self.area.d.next = self.magnitude_other.val();
+                if self.takes_other.q.val() {
+                    self.area.d.next = self.area_other.q.val();
                     self.db.d.next = self.db_other.q.val();
                     self.dc.d.next = self.dc_other.q.val();
-                    if self.area_other.q.val() < 0 {
+                    if self.negative_other.q.val() {
                         self.db.d.next = -self.db_other.q.val();
                         self.dc.d.next = -self.dc_other.q.val();
                     }
-                } else if self.area.q.val() < 0 {
-                    self.area.d.next = self.magnitude.val();
+                } else if self.negative.q.val() {
                     self.db.d.next = -self.db.q.val();
                     self.dc.d.next = -self.dc.q.val();
                 }
@@ -342,4 +426,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, area_other, multiplier }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca }

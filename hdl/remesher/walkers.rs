@@ -1,33 +1,42 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vertex data of the sweep: five walkers that step by difference vertices, one micro-operation a cycle.
+//! Vertex data of the sweep: five walkers that step by difference vertices, one micro-operation a cycle, in five stages
+//! that never stall (the queue behind has room for all of them).
 //!
-//! primary (AB), base (row of the primary edge rounded to the grid), left and right column, upper edge. A walker from
-//! the hi end of its edge starts at V * 2^g - rem and steps by -D, so both users of an edge meet the same bits; corners
-//! always leave exactly. Accumulators have W bits and wrap: a sum is right whenever the true vertex fits.
+//! primary (AB), base (row of the primary edge rounded to the grid), left and right column, upper edge. A walker from the
+//! lo end of its edge starts at V * 2^g + 2^(g-1), one from the hi end at that less the division's remainder, so both users
+//! of an edge meet the same bits; the half makes out = floor(acc / 2^g) round to nearest. Corners are sent exactly.
+//! Accumulators have W bits and wrap: a sum is right whenever the true vertex fits.
 //!
-//! | port     | format       |   Latency 1, interval 1
-//! | corner_*, step_*, rem_*, side, sweep, base_b | of the record; copied with the operation `LOAD_A` |
-//! | op_*     | stream       | see [`Sweep`](crate::remesher::Sweep) |
-//! | out_*    | stream       | beats with W-bit vertices, g fraction bits   Golden: models::remesher (sweep)   Error 0
+//! | stage | registers |
+//! | s1    | controls decoded from the micro-operation; the record is copied behind a `LOAD` here |
+//! | s2    | where a walker starts (one bus for all), and the base walker's step: sweep, or sweep + side, or sweep - side |
+//! | s3    | what each walker adds: a step, its complement (and one more), or its start |
+//! | s4    | the accumulators: one addition each |
+//! | sent  | the vertices of the beat |
+//!
+//! | port     | format       |   Latency 5, interval 1
+//! | corner_*, step_*, start_*, side, sweep, base_b | of the record, standing still until `record_ready` |
+//! | op_*     | -            | see [`Sweep`](crate::remesher::Sweep): 4 micro-operations between two beats and a `LOAD` |
+//! | out_*    | -            | beats   Golden: models::remesher (sweep)   Error 1/2 unit of the vertex format, by the rounding
+//!
+//! Example, g = 13: a start of 2 * 2^13 + 2^12 leaves as 2; a step of 2^12 on makes it 3.
 
 use crate::prelude::*;
 
-/// The walkers: `L` components, `V` bits a corner, `W` an accumulator, `T` a remainder.
+/// The walkers: `L` components, `V` bits a corner, `W` an accumulator, `X` = W + 2 a sum with a carry in front.
 #[derive(Clone, Debug, LogicBlock)]
 #[allow(missing_docs)]
-pub struct Walkers<const L: usize, const V: usize, const W: usize, const T: usize> {
+pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usize> {
     pub clock: Input<ClockReset>,
-    /// The record has been copied.
-    pub record_ready: Output<Bit>,
     pub corner_a: Input<Lanes<L, V>>,
     pub corner_b: Input<Lanes<L, V>>,
     pub corner_c: Input<Lanes<L, V>>,
     pub step_ab: Input<Lanes<L, W>>,
     pub step_ac: Input<Lanes<L, W>>,
     pub step_bc: Input<Lanes<L, W>>,
-    pub rem_ab: Input<Lanes<L, T>>,
-    pub rem_ac: Input<Lanes<L, T>>,
-    pub rem_bc: Input<Lanes<L, T>>,
+    pub start_ab: Input<Lanes<L, W>>,
+    pub start_ac: Input<Lanes<L, W>>,
+    pub start_bc: Input<Lanes<L, W>>,
     pub a_hi_ab: Input<Bit>,
     pub a_hi_ac: Input<Bit>,
     pub b_hi_bc: Input<Bit>,
@@ -35,32 +44,34 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const T: usiz
     pub sweep: Input<Lanes<L, W>>,
     pub base_b: Input<Lanes<L, W>>,
     pub op_valid: Input<Bit>,
-    pub op_ready: Output<Bit>,
     pub op_code: Input<U<3>>,
     pub op_left: Input<U<2>>,
     pub op_right: Input<U<2>>,
     pub op_second: Input<Bit>,
     pub op_on_bc: Input<Bit>,
     pub op_at_end: Input<Bit>,
-    pub op_base: Input<S<2>>,
+    pub op_climbs: Input<Bit>,
+    pub op_falls: Input<Bit>,
     pub op_column_edge: Input<Bit>,
     pub op_edge: Input<U<2>>,
-    pub op_edge_next: Input<U<2>>,
+    pub op_right_edge: Input<U<2>>,
     pub op_advance: Input<Bit>,
     pub op_turn: Input<Bit>,
     pub op_keep: Input<Bit>,
     pub op_swap: Input<Bit>,
     pub op_last: Input<Bit>,
+    /// The record has been copied.
+    pub record_ready: Output<Bit>,
     pub out_valid: Output<Bit>,
-    pub out_ready: Input<Bit>,
     pub out_kind: Output<U<2>>,
     pub out_left: Output<U<2>>,
     pub out_right: Output<U<2>>,
     pub out_keep: Output<Bit>,
     pub out_swap: Output<Bit>,
     pub out_last: Output<Bit>,
-    pub out_left_vertex: Output<Lanes<L, W>>,
-    pub out_right_vertex: Output<Lanes<L, W>>,
+    /// One cycle behind the other outputs, which go through the commands meanwhile.
+    pub out_left_vertex: Output<Lanes<L, V>>,
+    pub out_right_vertex: Output<Lanes<L, V>>,
     // The record.
     va: DataRegister<Lanes<L, V>>,
     vb: DataRegister<Lanes<L, V>>,
@@ -68,58 +79,150 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const T: usiz
     d_ab: DataRegister<Lanes<L, W>>,
     d_ac: DataRegister<Lanes<L, W>>,
     d_bc: DataRegister<Lanes<L, W>>,
-    r_ab: DataRegister<Lanes<L, T>>,
-    r_ac: DataRegister<Lanes<L, T>>,
-    r_bc: DataRegister<Lanes<L, T>>,
-    hi_ab: DataRegister<Bit>,
-    hi_ac: DataRegister<Bit>,
-    hi_bc: DataRegister<Bit>,
+    from_ab: DataRegister<Lanes<L, W>>,
+    from_ac: DataRegister<Lanes<L, W>>,
+    from_bc: DataRegister<Lanes<L, W>>,
     d_side: DataRegister<Lanes<L, W>>,
     d_sweep: DataRegister<Lanes<L, W>>,
     origin_b: DataRegister<Lanes<L, W>>,
+    hi_ab: DataRegister<Bit>,
+    hi_ac: DataRegister<Bit>,
+    hi_bc: DataRegister<Bit>,
+    // Decoded.
+    s1_load: DataRegister<Bit>,
+    s1_bus: DataRegister<U<3>>,
+    s1_to_primary: DataRegister<Bit>,
+    s1_to_edge: DataRegister<Bit>,
+    s1_to_right: DataRegister<Bit>,
+    s1_rung: DataRegister<Bit>,
+    s1_primary_minus: DataRegister<Bit>,
+    s1_edge_moves: DataRegister<Bit>,
+    s1_edge_minus: DataRegister<Bit>,
+    s1_edge_bc: DataRegister<Bit>,
+    s1_left_moves: DataRegister<Bit>,
+    s1_from_base: DataRegister<Bit>,
+    s1_base_takes: DataRegister<Bit>,
+    s1_right_side: DataRegister<Bit>,
+    s1_right_edge: DataRegister<Bit>,
+    s1_right_ac: DataRegister<Bit>,
+    s1_right_minus: DataRegister<Bit>,
+    s1_climbs: DataRegister<Bit>,
+    s1_side_minus: DataRegister<Bit>,
+    s1_second: DataRegister<Bit>,
+    s1_left_from: DataRegister<U<3>>,
+    s1_right_from: DataRegister<U<3>>,
+    s1_valid: Register<Bit>,
+    s1_kind: DataRegister<U<2>>,
+    s1_left: DataRegister<U<2>>,
+    s1_right: DataRegister<U<2>>,
+    s1_keep: DataRegister<Bit>,
+    s1_swap: DataRegister<Bit>,
+    s1_last: DataRegister<Bit>,
+    // The start bus and the step of the base walker.
+    s2_start: DataRegister<Lanes<L, W>>,
+    s2_across: DataRegister<Lanes<L, W>>,
+    s2_to_primary: DataRegister<Bit>,
+    s2_to_edge: DataRegister<Bit>,
+    s2_to_right: DataRegister<Bit>,
+    s2_rung: DataRegister<Bit>,
+    s2_primary_minus: DataRegister<Bit>,
+    s2_edge_moves: DataRegister<Bit>,
+    s2_edge_minus: DataRegister<Bit>,
+    s2_edge_bc: DataRegister<Bit>,
+    s2_left_moves: DataRegister<Bit>,
+    s2_from_base: DataRegister<Bit>,
+    s2_base_takes: DataRegister<Bit>,
+    s2_right_side: DataRegister<Bit>,
+    s2_right_edge: DataRegister<Bit>,
+    s2_right_ac: DataRegister<Bit>,
+    s2_right_minus: DataRegister<Bit>,
+    s2_second: DataRegister<Bit>,
+    s2_left_from: DataRegister<U<3>>,
+    s2_right_from: DataRegister<U<3>>,
+    s2_valid: Register<Bit>,
+    s2_kind: DataRegister<U<2>>,
+    s2_left: DataRegister<U<2>>,
+    s2_right: DataRegister<U<2>>,
+    s2_keep: DataRegister<Bit>,
+    s2_swap: DataRegister<Bit>,
+    s2_last: DataRegister<Bit>,
+    // What each walker adds.
+    s3_primary_step: DataRegister<Lanes<L, W>>,
+    s3_edge_step: DataRegister<Lanes<L, W>>,
+    s3_left_step: DataRegister<Lanes<L, W>>,
+    s3_right_step: DataRegister<Lanes<L, W>>,
+    s3_primary_minus: DataRegister<Bit>,
+    s3_edge_minus: DataRegister<Bit>,
+    s3_right_minus: DataRegister<Bit>,
+    s3_rung: DataRegister<Bit>,
+    s3_to_primary: DataRegister<Bit>,
+    s3_to_edge: DataRegister<Bit>,
+    s3_to_right: DataRegister<Bit>,
+    s3_from_base: DataRegister<Bit>,
+    s3_base_takes: DataRegister<Bit>,
+    s3_left_from: DataRegister<U<3>>,
+    s3_right_from: DataRegister<U<3>>,
+    s3_valid: Register<Bit>,
+    s3_kind: DataRegister<U<2>>,
+    s3_left: DataRegister<U<2>>,
+    s3_right: DataRegister<U<2>>,
+    s3_keep: DataRegister<Bit>,
+    s3_swap: DataRegister<Bit>,
+    s3_last: DataRegister<Bit>,
     // The walkers.
     primary_walker: DataRegister<Lanes<L, W>>,
     base_walker: DataRegister<Lanes<L, W>>,
     left_walker: DataRegister<Lanes<L, W>>,
     right_walker: DataRegister<Lanes<L, W>>,
     edge_walker: DataRegister<Lanes<L, W>>,
-    // The beat sent.
-    sent_valid: Register<Bit>,
-    sent_kind: DataRegister<U<2>>,
-    sent_left: DataRegister<U<2>>,
-    sent_right: DataRegister<U<2>>,
-    sent_keep: DataRegister<Bit>,
-    sent_swap: DataRegister<Bit>,
-    sent_last: DataRegister<Bit>,
-    sent_left_vertex: DataRegister<Lanes<L, W>>,
-    sent_right_vertex: DataRegister<Lanes<L, W>>,
-    go: Wire<Bit>,
-    first_load: Wire<Bit>,
-    second_load: Wire<Bit>,
+    edge_before: DataRegister<Lanes<L, V>>,
+    s4_base_takes: DataRegister<Bit>,
+    s4_left_from: DataRegister<U<3>>,
+    s4_right_from: DataRegister<U<3>>,
+    s4_valid: Register<Bit>,
+    s4_kind: DataRegister<U<2>>,
+    s4_left: DataRegister<U<2>>,
+    s4_right: DataRegister<U<2>>,
+    s4_keep: DataRegister<Bit>,
+    s4_swap: DataRegister<Bit>,
+    s4_last: DataRegister<Bit>,
+    // The vertices sent.
+    sent_left_vertex: DataRegister<Lanes<L, V>>,
+    sent_right_vertex: DataRegister<Lanes<L, V>>,
     beat: Wire<Bit>,
-    primary_next: Wire<Lanes<L, W>>,
-    base_shifted: Wire<Lanes<L, W>>,
-    base_next: Wire<Lanes<L, W>>,
-    edge_step: Wire<Lanes<L, W>>,
-    right_next: Wire<Lanes<L, W>>,
-    right_edge: Wire<U<2>>,
+    rung: Wire<Bit>,
+    start: Wire<Lanes<L, W>>,
+    side_step: Wire<Lanes<L, W>>,
+    side_carry: Wire<Lanes<L, X>>,
+    edge_along: Wire<Lanes<L, W>>,
+    right_along: Wire<Lanes<L, W>>,
+    primary_from: Wire<Lanes<L, W>>,
+    primary_carry: Wire<Lanes<L, X>>,
+    edge_from: Wire<Lanes<L, W>>,
+    edge_carry: Wire<Lanes<L, X>>,
+    left_from: Wire<Lanes<L, W>>,
+    right_from: Wire<Lanes<L, W>>,
+    right_carry: Wire<Lanes<L, X>>,
     guard: Constant<U<6>>,
+    half: Constant<Lanes<L, W>>,
+    one: Constant<Lanes<L, X>>,
+    zero: Constant<Lanes<L, X>>,
+    none: Constant<Lanes<L, W>>,
 }
 
-impl<const L: usize, const V: usize, const W: usize, const T: usize> Default for Walkers<L, V, W, T> {
+impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for Walkers<L, V, W, X> {
     fn default() -> Self {
         Self {
             clock: Input::default(),
-            record_ready: Output::default(),
             corner_a: Input::default(),
             corner_b: Input::default(),
             corner_c: Input::default(),
             step_ab: Input::default(),
             step_ac: Input::default(),
             step_bc: Input::default(),
-            rem_ab: Input::default(),
-            rem_ac: Input::default(),
-            rem_bc: Input::default(),
+            start_ab: Input::default(),
+            start_ac: Input::default(),
+            start_bc: Input::default(),
             a_hi_ab: Input::default(),
             a_hi_ac: Input::default(),
             b_hi_bc: Input::default(),
@@ -127,24 +230,24 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Default for
             sweep: Input::default(),
             base_b: Input::default(),
             op_valid: Input::default(),
-            op_ready: Output::default(),
             op_code: Input::default(),
             op_left: Input::default(),
             op_right: Input::default(),
             op_second: Input::default(),
             op_on_bc: Input::default(),
             op_at_end: Input::default(),
-            op_base: Input::default(),
+            op_climbs: Input::default(),
+            op_falls: Input::default(),
             op_column_edge: Input::default(),
             op_edge: Input::default(),
-            op_edge_next: Input::default(),
+            op_right_edge: Input::default(),
             op_advance: Input::default(),
             op_turn: Input::default(),
             op_keep: Input::default(),
             op_swap: Input::default(),
             op_last: Input::default(),
+            record_ready: Output::default(),
             out_valid: Output::default(),
-            out_ready: Input::default(),
             out_kind: Output::default(),
             out_left: Output::default(),
             out_right: Output::default(),
@@ -159,266 +262,618 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Default for
             d_ab: DataRegister::default(),
             d_ac: DataRegister::default(),
             d_bc: DataRegister::default(),
-            r_ab: DataRegister::default(),
-            r_ac: DataRegister::default(),
-            r_bc: DataRegister::default(),
-            hi_ab: DataRegister::default(),
-            hi_ac: DataRegister::default(),
-            hi_bc: DataRegister::default(),
+            from_ab: DataRegister::default(),
+            from_ac: DataRegister::default(),
+            from_bc: DataRegister::default(),
             d_side: DataRegister::default(),
             d_sweep: DataRegister::default(),
             origin_b: DataRegister::default(),
+            hi_ab: DataRegister::default(),
+            hi_ac: DataRegister::default(),
+            hi_bc: DataRegister::default(),
+            s1_load: DataRegister::default(),
+            s1_bus: DataRegister::default(),
+            s1_to_primary: DataRegister::default(),
+            s1_to_edge: DataRegister::default(),
+            s1_to_right: DataRegister::default(),
+            s1_rung: DataRegister::default(),
+            s1_primary_minus: DataRegister::default(),
+            s1_edge_moves: DataRegister::default(),
+            s1_edge_minus: DataRegister::default(),
+            s1_edge_bc: DataRegister::default(),
+            s1_left_moves: DataRegister::default(),
+            s1_from_base: DataRegister::default(),
+            s1_base_takes: DataRegister::default(),
+            s1_right_side: DataRegister::default(),
+            s1_right_edge: DataRegister::default(),
+            s1_right_ac: DataRegister::default(),
+            s1_right_minus: DataRegister::default(),
+            s1_climbs: DataRegister::default(),
+            s1_side_minus: DataRegister::default(),
+            s1_second: DataRegister::default(),
+            s1_left_from: DataRegister::default(),
+            s1_right_from: DataRegister::default(),
+            s1_valid: Register::default(),
+            s1_kind: DataRegister::default(),
+            s1_left: DataRegister::default(),
+            s1_right: DataRegister::default(),
+            s1_keep: DataRegister::default(),
+            s1_swap: DataRegister::default(),
+            s1_last: DataRegister::default(),
+            s2_start: DataRegister::default(),
+            s2_across: DataRegister::default(),
+            s2_to_primary: DataRegister::default(),
+            s2_to_edge: DataRegister::default(),
+            s2_to_right: DataRegister::default(),
+            s2_rung: DataRegister::default(),
+            s2_primary_minus: DataRegister::default(),
+            s2_edge_moves: DataRegister::default(),
+            s2_edge_minus: DataRegister::default(),
+            s2_edge_bc: DataRegister::default(),
+            s2_left_moves: DataRegister::default(),
+            s2_from_base: DataRegister::default(),
+            s2_base_takes: DataRegister::default(),
+            s2_right_side: DataRegister::default(),
+            s2_right_edge: DataRegister::default(),
+            s2_right_ac: DataRegister::default(),
+            s2_right_minus: DataRegister::default(),
+            s2_second: DataRegister::default(),
+            s2_left_from: DataRegister::default(),
+            s2_right_from: DataRegister::default(),
+            s2_valid: Register::default(),
+            s2_kind: DataRegister::default(),
+            s2_left: DataRegister::default(),
+            s2_right: DataRegister::default(),
+            s2_keep: DataRegister::default(),
+            s2_swap: DataRegister::default(),
+            s2_last: DataRegister::default(),
+            s3_primary_step: DataRegister::default(),
+            s3_edge_step: DataRegister::default(),
+            s3_left_step: DataRegister::default(),
+            s3_right_step: DataRegister::default(),
+            s3_primary_minus: DataRegister::default(),
+            s3_edge_minus: DataRegister::default(),
+            s3_right_minus: DataRegister::default(),
+            s3_rung: DataRegister::default(),
+            s3_to_primary: DataRegister::default(),
+            s3_to_edge: DataRegister::default(),
+            s3_to_right: DataRegister::default(),
+            s3_from_base: DataRegister::default(),
+            s3_base_takes: DataRegister::default(),
+            s3_left_from: DataRegister::default(),
+            s3_right_from: DataRegister::default(),
+            s3_valid: Register::default(),
+            s3_kind: DataRegister::default(),
+            s3_left: DataRegister::default(),
+            s3_right: DataRegister::default(),
+            s3_keep: DataRegister::default(),
+            s3_swap: DataRegister::default(),
+            s3_last: DataRegister::default(),
             primary_walker: DataRegister::default(),
             base_walker: DataRegister::default(),
             left_walker: DataRegister::default(),
             right_walker: DataRegister::default(),
             edge_walker: DataRegister::default(),
-            sent_valid: Register::default(),
-            sent_kind: DataRegister::default(),
-            sent_left: DataRegister::default(),
-            sent_right: DataRegister::default(),
-            sent_keep: DataRegister::default(),
-            sent_swap: DataRegister::default(),
-            sent_last: DataRegister::default(),
+            edge_before: DataRegister::default(),
+            s4_base_takes: DataRegister::default(),
+            s4_left_from: DataRegister::default(),
+            s4_right_from: DataRegister::default(),
+            s4_valid: Register::default(),
+            s4_kind: DataRegister::default(),
+            s4_left: DataRegister::default(),
+            s4_right: DataRegister::default(),
+            s4_keep: DataRegister::default(),
+            s4_swap: DataRegister::default(),
+            s4_last: DataRegister::default(),
             sent_left_vertex: DataRegister::default(),
             sent_right_vertex: DataRegister::default(),
-            go: Wire::default(),
-            first_load: Wire::default(),
-            second_load: Wire::default(),
             beat: Wire::default(),
-            primary_next: Wire::default(),
-            base_shifted: Wire::default(),
-            base_next: Wire::default(),
-            edge_step: Wire::default(),
-            right_next: Wire::default(),
-            right_edge: Wire::default(),
+            rung: Wire::default(),
+            start: Wire::default(),
+            side_step: Wire::default(),
+            side_carry: Wire::default(),
+            edge_along: Wire::default(),
+            right_along: Wire::default(),
+            primary_from: Wire::default(),
+            primary_carry: Wire::default(),
+            edge_from: Wire::default(),
+            edge_carry: Wire::default(),
+            left_from: Wire::default(),
+            right_from: Wire::default(),
+            right_carry: Wire::default(),
             guard: Constant::new(U::new((W - V - 1) as i64)),
+            half: Constant::new(Lanes::new([if W == V + 1 { 0 } else { 1 << (W - V - 2) }; L])),
+            one: Constant::new(Lanes::new([1; L])),
+            zero: Constant::new(Lanes::new([0; L])),
+            none: Constant::new(Lanes::new([0; L])),
         }
     }
 }
 
-impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for Walkers<L, V, W, T> {
+impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for Walkers<L, V, W, X> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(
-            self, clock, va, vb, vc, d_ab, d_ac, d_bc, r_ab, r_ac, r_bc, hi_ab, hi_ac, hi_bc, d_side, d_sweep, origin_b
+        dff_setup!(self, clock, va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac);
+        dff_setup!(self, clock, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load);
+        dff_setup!(
+            self,
+            clock,
+            s1_bus,
+            s1_to_primary,
+            s1_to_edge,
+            s1_to_right,
+            s1_rung,
+            s1_primary_minus,
+            s1_edge_moves,
+            s1_edge_minus
         );
         dff_setup!(
             self,
             clock,
-            primary_walker,
-            base_walker,
-            left_walker,
+            s1_edge_bc,
+            s1_left_moves,
+            s1_from_base,
+            s1_base_takes,
+            s1_right_side,
+            s1_right_edge,
+            s1_right_ac,
+            s1_right_minus
+        );
+        dff_setup!(
+            self,
+            clock,
+            s1_climbs,
+            s1_side_minus,
+            s1_second,
+            s1_left_from,
+            s1_right_from,
+            s1_valid,
+            s1_kind,
+            s1_left
+        );
+        dff_setup!(self, clock, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge);
+        dff_setup!(
+            self,
+            clock,
+            s2_to_right,
+            s2_rung,
+            s2_primary_minus,
+            s2_edge_moves,
+            s2_edge_minus,
+            s2_edge_bc,
+            s2_left_moves,
+            s2_from_base
+        );
+        dff_setup!(
+            self,
+            clock,
+            s2_base_takes,
+            s2_right_side,
+            s2_right_edge,
+            s2_right_ac,
+            s2_right_minus,
+            s2_second,
+            s2_left_from,
+            s2_right_from
+        );
+        dff_setup!(self, clock, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step);
+        dff_setup!(
+            self,
+            clock,
+            s3_edge_step,
+            s3_left_step,
+            s3_right_step,
+            s3_primary_minus,
+            s3_edge_minus,
+            s3_right_minus,
+            s3_rung,
+            s3_to_primary
+        );
+        dff_setup!(
+            self,
+            clock,
+            s3_to_edge,
+            s3_to_right,
+            s3_from_base,
+            s3_base_takes,
+            s3_left_from,
+            s3_right_from,
+            s3_valid,
+            s3_kind
+        );
+        dff_setup!(self, clock, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker);
+        dff_setup!(
+            self,
+            clock,
             right_walker,
             edge_walker,
-            sent_valid,
-            sent_kind,
-            sent_left,
-            sent_right
+            edge_before,
+            s4_base_takes,
+            s4_left_from,
+            s4_right_from,
+            s4_valid,
+            s4_kind
         );
-        dff_setup!(self, clock, sent_keep, sent_swap, sent_last, sent_left_vertex, sent_right_vertex);
-        self.out_valid.next = self.sent_valid.q.val();
-        self.out_kind.next = self.sent_kind.q.val();
-        self.out_left.next = self.sent_left.q.val();
-        self.out_right.next = self.sent_right.q.val();
-        self.out_keep.next = self.sent_keep.q.val();
-        self.out_swap.next = self.sent_swap.q.val();
-        self.out_last.next = self.sent_last.q.val();
+        dff_setup!(self, clock, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex);
+        self.out_valid.next = self.s4_valid.q.val();
+        self.out_kind.next = self.s4_kind.q.val();
+        self.out_left.next = self.s4_left.q.val();
+        self.out_right.next = self.s4_right.q.val();
+        self.out_keep.next = self.s4_keep.q.val();
+        self.out_swap.next = self.s4_swap.q.val();
+        self.out_last.next = self.s4_last.q.val();
         self.out_left_vertex.next = self.sent_left_vertex.q.val();
         self.out_right_vertex.next = self.sent_right_vertex.q.val();
-        self.go.next = !self.sent_valid.q.val() || self.out_ready.val();
-        self.op_ready.next = self.go.val();
-        self.first_load.next = self.go.val() && self.op_valid.val() && self.op_code.val() == 4;
-        self.second_load.next = self.go.val() && self.op_valid.val() && self.op_code.val() == 5;
-        self.beat.next = self.go.val() && self.op_valid.val() && self.op_code.val() < 4;
-        self.record_ready.next = self.first_load.val();
-        self.va.enable.next = self.first_load.val();
-        self.va.d.next = self.corner_a.val();
-        self.vb.enable.next = self.first_load.val();
-        self.vb.d.next = self.corner_b.val();
-        self.vc.enable.next = self.first_load.val();
-        self.vc.d.next = self.corner_c.val();
-        self.d_ab.enable.next = self.first_load.val();
-        self.d_ab.d.next = self.step_ab.val();
-        self.d_ac.enable.next = self.first_load.val();
-        self.d_ac.d.next = self.step_ac.val();
-        self.d_bc.enable.next = self.first_load.val();
-        self.d_bc.d.next = self.step_bc.val();
-        self.r_ab.enable.next = self.first_load.val();
-        self.r_ab.d.next = self.rem_ab.val();
-        self.r_ac.enable.next = self.first_load.val();
-        self.r_ac.d.next = self.rem_ac.val();
-        self.r_bc.enable.next = self.first_load.val();
-        self.r_bc.d.next = self.rem_bc.val();
-        self.hi_ab.enable.next = self.first_load.val();
+        self.record_ready.next = self.s1_load.q.val();
+
+        // The record. Directions are needed a stage earlier than the rest.
+        self.hi_ab.enable.next = self.op_valid.val() && self.op_code.val() == 4;
         self.hi_ab.d.next = self.a_hi_ab.val();
-        self.hi_ac.enable.next = self.first_load.val();
+        self.hi_ac.enable.next = self.op_valid.val() && self.op_code.val() == 4;
         self.hi_ac.d.next = self.a_hi_ac.val();
-        self.hi_bc.enable.next = self.first_load.val();
+        self.hi_bc.enable.next = self.op_valid.val() && self.op_code.val() == 4;
         self.hi_bc.d.next = self.b_hi_bc.val();
-        self.d_side.enable.next = self.first_load.val();
+        self.va.enable.next = self.s1_load.q.val();
+        self.va.d.next = self.corner_a.val();
+        self.vb.enable.next = self.s1_load.q.val();
+        self.vb.d.next = self.corner_b.val();
+        self.vc.enable.next = self.s1_load.q.val();
+        self.vc.d.next = self.corner_c.val();
+        self.d_ab.enable.next = self.s1_load.q.val();
+        self.d_ab.d.next = self.step_ab.val();
+        self.d_ac.enable.next = self.s1_load.q.val();
+        self.d_ac.d.next = self.step_ac.val();
+        self.d_bc.enable.next = self.s1_load.q.val();
+        self.d_bc.d.next = self.step_bc.val();
+        self.from_ab.enable.next = self.s1_load.q.val();
+        self.from_ab.d.next = self.start_ab.val();
+        self.from_ac.enable.next = self.s1_load.q.val();
+        self.from_ac.d.next = self.start_ac.val();
+        self.from_bc.enable.next = self.s1_load.q.val();
+        self.from_bc.d.next = self.start_bc.val();
+        self.d_side.enable.next = self.s1_load.q.val();
         self.d_side.d.next = self.side.val();
-        self.d_sweep.enable.next = self.first_load.val();
+        self.d_sweep.enable.next = self.s1_load.q.val();
         self.d_sweep.d.next = self.sweep.val();
-        self.origin_b.enable.next = self.first_load.val();
+        self.origin_b.enable.next = self.s1_load.q.val();
         self.origin_b.d.next = self.base_b.val();
 
-        if self.go.val() {
-            self.sent_valid.d.next = self.beat.val();
+        // s1: what the micro-operation asks of each walker.
+        self.beat.next = self.op_valid.val() && self.op_code.val() < 4;
+        self.rung.next = self.beat.val() && (self.op_code.val() == 1 || self.op_code.val() == 2);
+        self.s1_load.d.next = self.op_valid.val() && self.op_code.val() == 4;
+        self.s1_rung.d.next = self.rung.val();
+        self.s1_second.d.next = self.op_second.val();
+        self.s1_primary_minus.d.next = self.hi_ab.q.val() != self.op_second.val();
+        self.s1_climbs.d.next = self.op_climbs.val();
+        self.s1_side_minus.d.next = self.op_falls.val();
+        self.s1_to_primary.d.next = self.op_valid.val() && self.op_code.val() == 6;
+        self.s1_to_edge.d.next =
+            (self.op_valid.val() && self.op_code.val() == 7) || (self.beat.val() && self.op_turn.val());
+        self.s1_to_right.d.next =
+            (self.op_valid.val() && self.op_code.val() == 5) || (self.rung.val() && self.op_column_edge.val());
+        self.s1_from_base.d.next = self.rung.val() && !self.op_column_edge.val();
+        // The base walker follows the right one.
+        self.s1_base_takes.d.next = (self.op_valid.val() && self.op_code.val() == 5) || self.rung.val();
+        self.s1_edge_moves.d.next = self.beat.val() && self.op_advance.val() && !self.op_turn.val();
+        self.s1_edge_bc.d.next = self.op_on_bc.val();
+        self.s1_edge_minus.d.next = self.hi_ac.q.val();
+        if self.op_on_bc.val() {
+            // From C where the sub-triangle starts at A.
+            self.s1_edge_minus.d.next = self.hi_bc.q.val() == self.op_second.val();
         }
-        self.primary_next.next = self.primary_walker.q.val();
-        self.base_shifted.next = self.base_walker.q.val();
-        self.base_next.next = self.base_walker.q.val();
-        self.edge_step.next = self.edge_walker.q.val();
-        self.right_next.next = self.right_walker.q.val();
-        self.right_edge.next = 0.into();
-        // Corners have g fraction bits; a walker starts at V * 2^g, less the remainder at the hi end.
-        if self.first_load.val() {
-            self.base_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
-            self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
-            self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val();
-            if self.a_hi_ab.val() {
-                self.primary_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val())
-                    - bit_cast_to::<Lanes<L, W>>(self.rem_ab.val());
+        self.s1_left_moves.d.next = self.beat.val() && !self.rung.val() && self.op_left.val() == 1;
+        self.s1_right_side.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 1;
+        self.s1_right_edge.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 2;
+        self.s1_right_ac.d.next = self.op_second.val();
+        self.s1_right_minus.d.next = self.hi_bc.q.val();
+        if self.op_second.val() {
+            self.s1_right_minus.d.next = self.hi_ac.q.val();
+        }
+        if self.rung.val() {
+            self.s1_right_minus.d.next = self.op_second.val();
+        }
+        // The bus: 0 A, 1 B, 2 C, 3 hi end of AB, 4 of AC, 5 of BC, 6 base vertex of B. A corner stands for a lo end.
+        if self.op_code.val() == 5 {
+            self.s1_bus.d.next = 0.into();
+            if self.op_second.val() {
+                self.s1_bus.d.next = 6.into();
             }
-            if self.a_hi_ac.val() {
-                self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.corner_a.val()) << self.guard.val())
-                    - bit_cast_to::<Lanes<L, W>>(self.rem_ac.val());
-            }
-        } else if self.second_load.val() {
-            self.base_walker.d.next = self.origin_b.q.val();
-            self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-            self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-            if !self.hi_ab.q.val() {
-                self.primary_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val())
-                    - bit_cast_to::<Lanes<L, W>>(self.r_ab.q.val());
-            }
-            if self.hi_bc.q.val() {
-                self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val())
-                    - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
-            }
-        } else if self.beat.val() {
-            self.sent_kind.d.next = bit_cast_to::<U<2>>(self.op_code.val());
-            self.sent_left.d.next = self.op_left.val();
-            self.sent_right.d.next = self.op_right.val();
-            self.sent_keep.d.next = self.op_keep.val();
-            self.sent_swap.d.next = self.op_swap.val();
-            self.sent_last.d.next = self.op_last.val();
-            // Upper edge: along AC from A, along BC from B, or along BC from C, which is its hi end where B is not.
-            if self.op_turn.val() {
-                self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
-                if !self.hi_bc.q.val() {
-                    self.edge_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val())
-                        - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
-                }
-            } else if self.op_advance.val() {
-                if self.op_on_bc.val() {
-                    self.edge_step.next = self.edge_walker.q.val() + self.d_bc.q.val();
-                    if self.hi_bc.q.val() == self.op_second.val() {
-                        self.edge_step.next = self.edge_walker.q.val() - self.d_bc.q.val();
-                    }
-                } else {
-                    self.edge_step.next = self.edge_walker.q.val() + self.d_ac.q.val();
-                    if self.hi_ac.q.val() {
-                        self.edge_step.next = self.edge_walker.q.val() - self.d_ac.q.val();
-                    }
-                }
-                self.edge_walker.d.next = self.edge_step.val();
-            }
-            if self.op_code.val() == 1 || self.op_code.val() == 2 {
-                // First rung: the primary and base walkers go on by one column.
-                self.primary_next.next = self.primary_walker.q.val() + self.d_ab.q.val();
-                if self.hi_ab.q.val() != self.op_second.val() {
-                    self.primary_next.next = self.primary_walker.q.val() - self.d_ab.q.val();
-                }
-                if self.op_base.val() == 0 {
-                    self.base_shifted.next = self.base_walker.q.val();
-                } else if self.op_base.val() < 0 {
-                    self.base_shifted.next = self.base_walker.q.val() - self.d_side.q.val();
-                } else {
-                    self.base_shifted.next = self.base_walker.q.val() + self.d_side.q.val();
-                }
-                self.base_next.next = self.base_shifted.val() + self.d_sweep.q.val();
+        } else if self.op_code.val() == 6 {
+            if self.hi_ab.q.val() != self.op_second.val() {
+                self.s1_bus.d.next = 3.into();
+            } else {
+                self.s1_bus.d.next = 0.into();
                 if self.op_second.val() {
-                    self.base_next.next = self.base_shifted.val() - self.d_sweep.q.val();
+                    self.s1_bus.d.next = 1.into();
                 }
-                self.primary_walker.d.next = self.primary_next.val();
-                self.base_walker.d.next = self.base_next.val();
-                self.left_walker.d.next = self.base_walker.q.val();
-                self.right_walker.d.next = self.base_next.val();
-                if self.op_column_edge.val() {
-                    if self.op_second.val() {
-                        self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
-                        if self.hi_ac.q.val() {
-                            self.right_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.va.q.val())
-                                << self.guard.val())
-                                - bit_cast_to::<Lanes<L, W>>(self.r_ac.q.val());
-                        }
-                    } else {
-                        self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-                        if self.hi_bc.q.val() {
-                            self.right_walker.d.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val())
-                                << self.guard.val())
-                                - bit_cast_to::<Lanes<L, W>>(self.r_bc.q.val());
-                        }
-                    }
-                }
-                self.sent_right_vertex.d.next = self.primary_next.val();
-                if self.op_second.val() {
-                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-                    if self.op_at_end.val() {
-                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
-                    }
-                } else {
-                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val();
-                    if self.op_at_end.val() {
-                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-                    }
+            }
+        } else if self.op_code.val() == 7 {
+            if self.op_second.val() {
+                self.s1_bus.d.next = 1.into();
+                if self.hi_bc.q.val() {
+                    self.s1_bus.d.next = 5.into();
                 }
             } else {
-                if self.op_left.val() == 1 {
-                    self.sent_left_vertex.d.next = self.left_walker.q.val() + self.d_side.q.val();
-                    self.left_walker.d.next = self.left_walker.q.val() + self.d_side.q.val();
-                } else if self.op_edge.val() == 0 {
-                    self.sent_left_vertex.d.next = self.edge_walker.q.val();
-                } else if self.op_edge.val() == 1 {
-                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
-                } else {
-                    self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-                }
-                if self.op_right.val() == 1 {
-                    self.right_next.next = self.right_walker.q.val() + self.d_side.q.val();
-                    self.right_walker.d.next = self.right_next.val();
-                    self.sent_right_vertex.d.next = self.right_next.val();
-                } else if self.op_right.val() == 2 {
-                    if self.op_second.val() {
-                        self.right_next.next = self.right_walker.q.val() + self.d_ac.q.val();
-                        if self.hi_ac.q.val() {
-                            self.right_next.next = self.right_walker.q.val() - self.d_ac.q.val();
-                        }
-                    } else {
-                        self.right_next.next = self.right_walker.q.val() + self.d_bc.q.val();
-                        if self.hi_bc.q.val() {
-                            self.right_next.next = self.right_walker.q.val() - self.d_bc.q.val();
-                        }
-                    }
-                    self.right_walker.d.next = self.right_next.val();
-                    self.sent_right_vertex.d.next = self.right_next.val();
-                } else if self.op_right.val() == 3 {
-                    // The next upper-edge vertex: the one behind it, if the left has just taken the first.
-                    self.right_edge.next = self.op_edge.val();
-                    if self.op_advance.val() {
-                        self.right_edge.next = self.op_edge_next.val();
-                    }
-                    if self.right_edge.val() == 0 {
-                        self.sent_right_vertex.d.next = self.edge_step.val();
-                    } else if self.right_edge.val() == 1 {
-                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val();
-                    } else {
-                        self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val();
-                    }
+                self.s1_bus.d.next = 0.into();
+                if self.hi_ac.q.val() {
+                    self.s1_bus.d.next = 4.into();
                 }
             }
+        } else if self.op_turn.val() {
+            self.s1_bus.d.next = 2.into();
+            if !self.hi_bc.q.val() {
+                self.s1_bus.d.next = 5.into();
+            }
+        } else if self.op_second.val() {
+            self.s1_bus.d.next = 0.into();
+            if self.hi_ac.q.val() {
+                self.s1_bus.d.next = 4.into();
+            }
+        } else {
+            self.s1_bus.d.next = 1.into();
+            if self.hi_bc.q.val() {
+                self.s1_bus.d.next = 5.into();
+            }
+        }
+        // Sources of the vertices sent: 0 A, 1 B, 2 C, 3 column walker, 4 edge walker, 5 primary walker; 6 stays: what a
+        // walker holds that nobody asked for may never have been set.
+        if !self.beat.val() {
+            self.s1_left_from.d.next = 6.into();
+            self.s1_right_from.d.next = 6.into();
+        } else if self.rung.val() {
+            self.s1_left_from.d.next = 0.into();
+            self.s1_right_from.d.next = 5.into();
+            if self.op_second.val() {
+                self.s1_left_from.d.next = 1.into();
+                if self.op_at_end.val() {
+                    self.s1_right_from.d.next = 0.into();
+                }
+            } else if self.op_at_end.val() {
+                self.s1_right_from.d.next = 1.into();
+            }
+        } else {
+            if self.op_left.val() == 0 {
+                self.s1_left_from.d.next = 6.into();
+            } else if self.op_left.val() == 1 {
+                self.s1_left_from.d.next = 3.into();
+            } else if self.op_edge.val() == 0 {
+                self.s1_left_from.d.next = 4.into();
+            } else if self.op_edge.val() == 1 {
+                self.s1_left_from.d.next = 2.into();
+            } else {
+                self.s1_left_from.d.next = 1.into();
+            }
+            if self.op_right.val() == 0 {
+                self.s1_right_from.d.next = 6.into();
+            } else if self.op_right.val() != 3 {
+                self.s1_right_from.d.next = 3.into();
+            } else if self.op_right_edge.val() == 0 {
+                self.s1_right_from.d.next = 4.into();
+            } else if self.op_right_edge.val() == 1 {
+                self.s1_right_from.d.next = 2.into();
+            } else {
+                self.s1_right_from.d.next = 1.into();
+            }
+        }
+        self.s1_valid.d.next = self.beat.val();
+        self.s1_kind.d.next = bit_cast_to::<U<2>>(self.op_code.val());
+        self.s1_left.d.next = self.op_left.val();
+        self.s1_right.d.next = self.op_right.val();
+        self.s1_keep.d.next = self.op_keep.val();
+        self.s1_swap.d.next = self.op_swap.val();
+        self.s1_last.d.next = self.op_last.val();
+
+        // s2: the bus, and the base walker's step.
+        if self.s1_bus.q.val() == 0 {
+            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val()) | self.half.val();
+        } else if self.s1_bus.q.val() == 1 {
+            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val()) | self.half.val();
+        } else if self.s1_bus.q.val() == 2 {
+            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val()) | self.half.val();
+        } else if self.s1_bus.q.val() == 3 {
+            self.start.next = self.from_ab.q.val();
+        } else if self.s1_bus.q.val() == 4 {
+            self.start.next = self.from_ac.q.val();
+        } else if self.s1_bus.q.val() == 5 {
+            self.start.next = self.from_bc.q.val();
+        } else {
+            self.start.next = self.origin_b.q.val();
+        }
+        self.s2_start.d.next = self.start.val();
+        // a - b is a + !b + 1: the one comes in as the carry out of a bit below.
+        self.side_step.next = self.none.val();
+        self.side_carry.next = self.zero.val();
+        if self.s1_climbs.q.val() {
+            self.side_step.next = self.d_side.q.val();
+            if self.s1_side_minus.q.val() {
+                self.side_step.next = !self.d_side.q.val();
+                self.side_carry.next = self.one.val();
+            }
+        }
+        self.s2_across.d.next = bit_cast_to::<Lanes<L, W>>(
+            (((bit_cast_to::<Lanes<L, X>>(self.d_sweep.q.val()) << 1) | self.one.val())
+                + ((bit_cast_to::<Lanes<L, X>>(self.side_step.val()) << 1) | self.side_carry.val()))
+                >> 1,
+        );
+        self.s2_to_primary.d.next = self.s1_to_primary.q.val();
+        self.s2_to_edge.d.next = self.s1_to_edge.q.val();
+        self.s2_to_right.d.next = self.s1_to_right.q.val();
+        self.s2_rung.d.next = self.s1_rung.q.val();
+        self.s2_primary_minus.d.next = self.s1_primary_minus.q.val();
+        self.s2_edge_moves.d.next = self.s1_edge_moves.q.val();
+        self.s2_edge_minus.d.next = self.s1_edge_minus.q.val();
+        self.s2_edge_bc.d.next = self.s1_edge_bc.q.val();
+        self.s2_left_moves.d.next = self.s1_left_moves.q.val();
+        self.s2_from_base.d.next = self.s1_from_base.q.val();
+        self.s2_base_takes.d.next = self.s1_base_takes.q.val();
+        self.s2_right_side.d.next = self.s1_right_side.q.val();
+        self.s2_right_edge.d.next = self.s1_right_edge.q.val();
+        self.s2_right_ac.d.next = self.s1_right_ac.q.val();
+        self.s2_right_minus.d.next = self.s1_right_minus.q.val();
+        self.s2_second.d.next = self.s1_second.q.val();
+        self.s2_left_from.d.next = self.s1_left_from.q.val();
+        self.s2_right_from.d.next = self.s1_right_from.q.val();
+        self.s2_valid.d.next = self.s1_valid.q.val();
+        self.s2_kind.d.next = self.s1_kind.q.val();
+        self.s2_left.d.next = self.s1_left.q.val();
+        self.s2_right.d.next = self.s1_right.q.val();
+        self.s2_keep.d.next = self.s1_keep.q.val();
+        self.s2_swap.d.next = self.s1_swap.q.val();
+        self.s2_last.d.next = self.s1_last.q.val();
+
+        // s3: what each walker adds.
+        self.s3_primary_step.d.next = self.none.val();
+        self.s3_primary_minus.d.next = false;
+        if self.s2_to_primary.q.val() {
+            self.s3_primary_step.d.next = self.s2_start.q.val();
+        } else if self.s2_rung.q.val() {
+            self.s3_primary_step.d.next = self.d_ab.q.val();
+            if self.s2_primary_minus.q.val() {
+                self.s3_primary_step.d.next = !self.d_ab.q.val();
+                self.s3_primary_minus.d.next = true;
+            }
+        }
+        self.edge_along.next = self.d_ac.q.val();
+        if self.s2_edge_bc.q.val() {
+            self.edge_along.next = self.d_bc.q.val();
+        }
+        self.s3_edge_step.d.next = self.none.val();
+        self.s3_edge_minus.d.next = false;
+        if self.s2_to_edge.q.val() {
+            self.s3_edge_step.d.next = self.s2_start.q.val();
+        } else if self.s2_edge_moves.q.val() {
+            self.s3_edge_step.d.next = self.edge_along.val();
+            if self.s2_edge_minus.q.val() {
+                self.s3_edge_step.d.next = !self.edge_along.val();
+                self.s3_edge_minus.d.next = true;
+            }
+        }
+        self.s3_left_step.d.next = self.none.val();
+        if self.s2_left_moves.q.val() {
+            self.s3_left_step.d.next = self.d_side.q.val();
+        }
+        self.right_along.next = self.d_bc.q.val();
+        if self.s2_from_base.q.val() {
+            self.right_along.next = self.s2_across.q.val();
+        } else if self.s2_right_ac.q.val() {
+            self.right_along.next = self.d_ac.q.val();
+        }
+        self.s3_right_step.d.next = self.none.val();
+        self.s3_right_minus.d.next = false;
+        if self.s2_to_right.q.val() {
+            self.s3_right_step.d.next = self.s2_start.q.val();
+        } else if self.s2_right_side.q.val() {
+            self.s3_right_step.d.next = self.d_side.q.val();
+        } else if self.s2_right_edge.q.val() || self.s2_from_base.q.val() {
+            self.s3_right_step.d.next = self.right_along.val();
+            if self.s2_right_minus.q.val() {
+                self.s3_right_step.d.next = !self.right_along.val();
+                self.s3_right_minus.d.next = true;
+            }
+        }
+        self.s3_rung.d.next = self.s2_rung.q.val();
+        self.s3_to_primary.d.next = self.s2_to_primary.q.val();
+        self.s3_to_edge.d.next = self.s2_to_edge.q.val();
+        self.s3_to_right.d.next = self.s2_to_right.q.val();
+        self.s3_from_base.d.next = self.s2_from_base.q.val();
+        self.s3_base_takes.d.next = self.s2_base_takes.q.val();
+        self.s3_left_from.d.next = self.s2_left_from.q.val();
+        self.s3_right_from.d.next = self.s2_right_from.q.val();
+        self.s3_valid.d.next = self.s2_valid.q.val();
+        self.s3_kind.d.next = self.s2_kind.q.val();
+        self.s3_left.d.next = self.s2_left.q.val();
+        self.s3_right.d.next = self.s2_right.q.val();
+        self.s3_keep.d.next = self.s2_keep.q.val();
+        self.s3_swap.d.next = self.s2_swap.q.val();
+        self.s3_last.d.next = self.s2_last.q.val();
+
+        // s4: the walkers.
+        self.primary_carry.next = self.zero.val();
+        if self.s3_primary_minus.q.val() {
+            self.primary_carry.next = self.one.val();
+        }
+        self.primary_from.next = self.primary_walker.q.val();
+        if self.s3_to_primary.q.val() {
+            self.primary_from.next = self.none.val();
+        }
+        self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(
+            (((bit_cast_to::<Lanes<L, X>>(self.primary_from.val()) << 1) | self.one.val())
+                + ((bit_cast_to::<Lanes<L, X>>(self.s3_primary_step.q.val()) << 1) | self.primary_carry.val()))
+                >> 1,
+        );
+        self.edge_carry.next = self.zero.val();
+        if self.s3_edge_minus.q.val() {
+            self.edge_carry.next = self.one.val();
+        }
+        self.edge_from.next = self.edge_walker.q.val();
+        if self.s3_to_edge.q.val() {
+            self.edge_from.next = self.none.val();
+        }
+        self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(
+            (((bit_cast_to::<Lanes<L, X>>(self.edge_from.val()) << 1) | self.one.val())
+                + ((bit_cast_to::<Lanes<L, X>>(self.s3_edge_step.q.val()) << 1) | self.edge_carry.val()))
+                >> 1,
+        );
+        self.edge_before.d.next = bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val());
+        self.left_from.next = self.left_walker.q.val();
+        if self.s3_rung.q.val() {
+            self.left_from.next = self.base_walker.q.val();
+        }
+        self.left_walker.d.next = self.left_from.val() + self.s3_left_step.q.val();
+        self.right_carry.next = self.zero.val();
+        if self.s3_right_minus.q.val() {
+            self.right_carry.next = self.one.val();
+        }
+        self.right_from.next = self.right_walker.q.val();
+        if self.s3_to_right.q.val() {
+            self.right_from.next = self.none.val();
+        } else if self.s3_from_base.q.val() {
+            self.right_from.next = self.base_walker.q.val();
+        }
+        self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(
+            (((bit_cast_to::<Lanes<L, X>>(self.right_from.val()) << 1) | self.one.val())
+                + ((bit_cast_to::<Lanes<L, X>>(self.s3_right_step.q.val()) << 1) | self.right_carry.val()))
+                >> 1,
+        );
+        // The base walker takes the right one's first vertex, a cycle behind it.
+        self.base_walker.enable.next = self.s4_base_takes.q.val();
+        self.base_walker.d.next = self.right_walker.q.val();
+        self.s4_base_takes.d.next = self.s3_base_takes.q.val();
+        self.s4_left_from.d.next = self.s3_left_from.q.val();
+        self.s4_right_from.d.next = self.s3_right_from.q.val();
+        self.s4_valid.d.next = self.s3_valid.q.val();
+        self.s4_kind.d.next = self.s3_kind.q.val();
+        self.s4_left.d.next = self.s3_left.q.val();
+        self.s4_right.d.next = self.s3_right.q.val();
+        self.s4_keep.d.next = self.s3_keep.q.val();
+        self.s4_swap.d.next = self.s3_swap.q.val();
+        self.s4_last.d.next = self.s3_last.q.val();
+
+        // The vertices sent.
+        if self.s4_left_from.q.val() == 0 {
+            self.sent_left_vertex.d.next = self.va.q.val();
+        } else if self.s4_left_from.q.val() == 1 {
+            self.sent_left_vertex.d.next = self.vb.q.val();
+        } else if self.s4_left_from.q.val() == 2 {
+            self.sent_left_vertex.d.next = self.vc.q.val();
+        } else if self.s4_left_from.q.val() == 3 {
+            self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.left_walker.q.val() >> self.guard.val());
+        } else if self.s4_left_from.q.val() == 4 {
+            self.sent_left_vertex.d.next = self.edge_before.q.val();
+        }
+        if self.s4_right_from.q.val() == 0 {
+            self.sent_right_vertex.d.next = self.va.q.val();
+        } else if self.s4_right_from.q.val() == 1 {
+            self.sent_right_vertex.d.next = self.vb.q.val();
+        } else if self.s4_right_from.q.val() == 2 {
+            self.sent_right_vertex.d.next = self.vc.q.val();
+        } else if self.s4_right_from.q.val() == 3 {
+            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.right_walker.q.val() >> self.guard.val());
+        } else if self.s4_right_from.q.val() == 4 {
+            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val());
+        } else if self.s4_right_from.q.val() == 5 {
+            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.primary_walker.q.val() >> self.guard.val());
         }
     }
 
@@ -427,4 +882,4 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize> Logic for W
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const T: usize] Walkers<L, V, W, T>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, rem_ab, rem_ac, rem_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_base, op_column_edge, op_edge, op_edge_next, op_advance, op_turn, op_keep, op_swap, op_last, out_ready;; va, vb, vc, d_ab, d_ac, d_bc, r_ab, r_ac, r_bc, hi_ab, hi_ac, hi_bc, d_side, d_sweep, origin_b, primary_walker, base_walker, left_walker, right_walker, edge_walker, sent_valid, sent_kind, sent_left, sent_right, sent_keep, sent_swap, sent_last, sent_left_vertex, sent_right_vertex }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_bus, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_second, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_second, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_left_from, s3_right_from, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, s4_left_from, s4_right_from, s4_valid, s4_kind, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex }
