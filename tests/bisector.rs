@@ -247,9 +247,11 @@ fn bisector_feeds_the_strip_unit() {
             assert!(unit.accepts());
             unit.device.edge();
             unit.withdraw();
-            unit.settle();
-            decoded.extend(ports.triangles(&unit.outputs));
-            unit.device.edge();
+            for _ in 0..position::StripUnit::LATENCY {
+                unit.settle();
+                decoded.extend(ports.triangles(&unit.outputs));
+                unit.device.edge();
+            }
         }
         let mut triangle = corners.map(|corner| corner.map(i64::from));
         let [mut got] = decoded[..] else { panic!("{} triangles of one beat", decoded.len()) };

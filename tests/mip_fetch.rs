@@ -189,13 +189,13 @@ fn mip_fetch_reset_in_the_middle_of_a_stream() {
         let nothing = command_beat(&Command::Fetch { level: 0, u: 0, v: 0, filter: Filter::Nearest });
         if cycles % 2 == 0 {
             cycle(&mut unit, Some(&nothing), true);
-            let values: Vec<_> = (0..20).filter_map(|_| cycle(&mut unit, None, true).1).collect();
+            let values: Vec<_> = (0..Tiny::LATENCY + 3).filter_map(|_| cycle(&mut unit, None, true).1).collect();
             assert_eq!(values, [0], "after {cycles} cycles");
             assert!(unit.block().error.val());
             unit.reset(1);
         }
         let (mut sent, mut values) = (0, Vec::new());
-        for _ in 0..beats.len() + 20 {
+        for _ in 0..beats.len() + Tiny::LATENCY + 3 {
             let (taken, value) = cycle(&mut unit, beats.get(sent), true);
             sent += usize::from(taken);
             values.extend(value);

@@ -170,7 +170,7 @@ fn strip_unit_takes_a_step_a_cycle() {
         scoreboard.run(Until::Exhausted, &mut |_, _, _| Ok(())).unwrap_or_else(|mismatch| panic!("{mismatch}"));
     assert_eq!(counts.accepted, beats);
     assert!(counts.checked > beats / 3, "{counts:?}");
-    assert_eq!(counts.cycles, beats + small::StripUnit::LATENCY as u64);
+    assert!(counts.cycles <= beats + small::StripUnit::LATENCY as u64, "{counts:?}, {beats} steps");
 }
 
 /// Four-bit counters and two places.
