@@ -602,8 +602,12 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
         let report = yosys_synth_ecp5(&emitted(*block, set, None)?.design)?;
         println!("{name}: {report}");
         assert_eq!(report.latches, Vec::<String>::new(), "{name}");
-        // The sizes of sixteen levels, and two stacks of 32 triangles, are all that is too small for block RAM.
+        // Queues of eight or sixteen places, the sizes of sixteen levels, and two stacks of 32 triangles are all that is
+        // too small for block RAM.
         let distributed = match name {
+            "strip_unit" => 54,
+            "remesher" => 110,
+            "mip_build" => 8,
             "mip_fetch" => 16,
             "bisector" => 80,
             _ => 0,
@@ -613,7 +617,9 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
         let most = |stated: usize| stated + stated / 10;
         let luts = report.luts + 2 * report.carries + 4 * report.distributed_rams;
         assert!(luts > 0 && luts <= most(stated.lut), "{name}: {report}");
-        assert!(report.flip_flops > 0 && report.flip_flops <= most(stated.ff), "{name}: {report}");
+        // What stands behind a block RAM is counted in it there.
+        let inside = 36 * stated.bram;
+        assert!(report.flip_flops > 0 && report.flip_flops <= most(stated.ff) + inside, "{name}: {report}");
         assert_eq!([report.block_rams, report.multipliers], [stated.bram, stated.dsp], "{name}: {report}");
     }
     Ok(())

@@ -509,7 +509,7 @@ impl<const T: usize> Logic for Sweep<T> {
             self.primary_step.next = self.slope_down.q.val();
         }
         // The right column where it is an edge: AC from A, or BC from B, which never fall either.
-        self.right_carries.next = !(self.right_walk.q.val() < 0);
+        self.right_carries.next = self.right_walk.q.val() >= 0;
         if self.second.q.val() {
             self.right_length.next = self.n_ac.q.val();
             self.right_start.next = self.upper.start_ac.val();
@@ -580,7 +580,7 @@ impl<const T: usize> Logic for Sweep<T> {
         // How far the upper edge is from the right vertex behind this move. Sums with a term that small are choices.
         self.edge_up.next = self.advance.val() && self.upper.row_ahead.val();
         self.right_up.next = self.moves.val() && self.rises.val();
-        self.primary_up.next = self.primary_carries.val() && !(self.slope.q.val() < 0);
+        self.primary_up.next = self.primary_carries.val() && self.slope.q.val() >= 0;
         self.primary_down.next = self.primary_carries.val() && self.slope.q.val() < 0;
         // In a first rung the right vertex starts on the primary edge's next row, and the edge has left its corner.
         self.leaves_up.next = self.corner_start.q.val() && self.upper.row_ahead.val();
@@ -592,9 +592,9 @@ impl<const T: usize> Logic for Sweep<T> {
         self.low_1.next = self.gap.q.val().get_bit(1);
         self.from_five.next =
             self.gap_far.q.val() && ((self.gap.q.val() >> 3) != 0 || self.low_1.val() || self.low_0.val());
-        self.rise_far.next = !(self.rise.q.val() < 0) && (self.rise.q.val() >> 2) != 0;
+        self.rise_far.next = self.rise.q.val() >= 0 && (self.rise.q.val() >> 2) != 0;
         self.rise_low.next = self.rise.q.val().get_bits::<2>(0);
-        self.rise_three.next = self.rise_far.val() || (!(self.rise.q.val() < 0) && self.rise_low.val() == 3);
+        self.rise_three.next = self.rise_far.val() || (self.rise.q.val() >= 0 && self.rise_low.val() == 3);
         self.from_minus.next = !self.negative.val() || self.gap.q.val() == -1;
         self.from_zero.next = !self.negative.val();
         self.from_one.next = !self.negative.val() && (self.gap_far.q.val() || self.low_1.val() || self.low_0.val());
@@ -987,7 +987,7 @@ impl<const T: usize> Logic for Sweep<T> {
                     }
                     if self.moves.val() {
                         self.right_left.d.next = self.right_left.q.val() - 1;
-                        self.right_more.d.next = !(self.right_left.q.val() < 0) && (self.right_left.q.val() >> 2) != 0;
+                        self.right_more.d.next = self.right_left.q.val() >= 0 && (self.right_left.q.val() >> 2) != 0;
                         self.right_walk.d.next = self.right_walk.q.val() + (self.right_step.val() << 1);
                     }
                     if self.strip_ends.val() {

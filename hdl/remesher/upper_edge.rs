@@ -230,8 +230,8 @@ impl<const T: usize> Logic for UpperEdge<T> {
         }
 
         // From the vertex ahead to the third: C on the way from AC to CB is vertex 0 of CB.
-        self.row_carries.next = !(self.row_walk.q.val() < 0);
-        self.column_carries.next = !(self.column_walk.q.val() < 0);
+        self.row_carries.next = self.row_walk.q.val() >= 0;
+        self.column_carries.next = self.column_walk.q.val() >= 0;
         self.reaches_c.next = self.ahead_near_end.q.val() && self.pointed.val() && !self.ahead_on_bc.q.val();
         if self.ahead_on_bc.q.val() {
             self.row_step.next = self.d_bc.val();
