@@ -108,7 +108,6 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     s1_right_minus: DataRegister<Bit>,
     s1_climbs: DataRegister<Bit>,
     s1_side_minus: DataRegister<Bit>,
-    s1_second: DataRegister<Bit>,
     s1_left_from: DataRegister<U<3>>,
     s1_right_from: DataRegister<U<3>>,
     s1_valid: Register<Bit>,
@@ -136,7 +135,6 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     s2_right_edge: DataRegister<Bit>,
     s2_right_ac: DataRegister<Bit>,
     s2_right_minus: DataRegister<Bit>,
-    s2_second: DataRegister<Bit>,
     s2_left_from: DataRegister<U<3>>,
     s2_right_from: DataRegister<U<3>>,
     s2_valid: Register<Bit>,
@@ -290,7 +288,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             s1_right_minus: DataRegister::default(),
             s1_climbs: DataRegister::default(),
             s1_side_minus: DataRegister::default(),
-            s1_second: DataRegister::default(),
             s1_left_from: DataRegister::default(),
             s1_right_from: DataRegister::default(),
             s1_valid: Register::default(),
@@ -317,7 +314,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             s2_right_edge: DataRegister::default(),
             s2_right_ac: DataRegister::default(),
             s2_right_minus: DataRegister::default(),
-            s2_second: DataRegister::default(),
             s2_left_from: DataRegister::default(),
             s2_right_from: DataRegister::default(),
             s2_valid: Register::default(),
@@ -419,18 +415,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s1_right_ac,
             s1_right_minus
         );
-        dff_setup!(
-            self,
-            clock,
-            s1_climbs,
-            s1_side_minus,
-            s1_second,
-            s1_left_from,
-            s1_right_from,
-            s1_valid,
-            s1_kind,
-            s1_left
-        );
+        dff_setup!(self, clock, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left);
         dff_setup!(self, clock, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge);
         dff_setup!(
             self,
@@ -452,7 +437,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s2_right_edge,
             s2_right_ac,
             s2_right_minus,
-            s2_second,
             s2_left_from,
             s2_right_from
         );
@@ -543,7 +527,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.rung.next = self.beat.val() && (self.op_code.val() == 1 || self.op_code.val() == 2);
         self.s1_load.d.next = self.op_valid.val() && self.op_code.val() == 4;
         self.s1_rung.d.next = self.rung.val();
-        self.s1_second.d.next = self.op_second.val();
         self.s1_primary_minus.d.next = self.hi_ab.q.val() != self.op_second.val();
         self.s1_climbs.d.next = self.op_climbs.val();
         self.s1_side_minus.d.next = self.op_falls.val();
@@ -711,7 +694,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s2_right_edge.d.next = self.s1_right_edge.q.val();
         self.s2_right_ac.d.next = self.s1_right_ac.q.val();
         self.s2_right_minus.d.next = self.s1_right_minus.q.val();
-        self.s2_second.d.next = self.s1_second.q.val();
         self.s2_left_from.d.next = self.s1_left_from.q.val();
         self.s2_right_from.d.next = self.s1_right_from.q.val();
         self.s2_valid.d.next = self.s1_valid.q.val();
@@ -882,4 +864,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_bus, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_second, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_second, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_left_from, s3_right_from, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, s4_left_from, s4_right_from, s4_valid, s4_kind, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_bus, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_left_from, s3_right_from, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, s4_left_from, s4_right_from, s4_valid, s4_kind, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex }
