@@ -167,6 +167,20 @@ fn synth_packs_registers_behind_block_ram() -> Outcome {
     );
     assert_eq!(cells["ram"]["parameters"]["REGMODE_B"], "OUTREG");
     assert_eq!(output_registers(&mut packed, "top"), Ok(0), "it is done once");
+    // Registers that always take what they get, as Yosys writes them.
+    let always = |d: u64, q: u64| {
+        let mut register = register(d, q, 0);
+        register["parameters"]["CEMUX"] = json!("1 ");
+        if let Some(connections) = register["connections"].as_object_mut() {
+            connections.remove("CE");
+        }
+        register
+    };
+    let mut packed = netlist(always(11, 21), json!([20, 21]));
+    assert_eq!(output_registers(&mut packed, "top"), Ok(0), "the two have different enables");
+    packed["modules"]["top"]["cells"]["first"] = always(10, 20);
+    assert_eq!(output_registers(&mut packed, "top"), Ok(2));
+    assert_eq!(packed["modules"]["top"]["cells"]["ram"]["connections"]["OCEB"], json!(["1"]));
     let mut other_clock = register(11, 21, 3);
     other_clock["connections"]["CLK"] = json!([4]);
     let mut reset = register(11, 21, 3);

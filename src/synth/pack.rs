@@ -90,7 +90,8 @@ fn registers(
         };
         let cell = cells.get(*register).filter(|cell| cell["type"] == "TRELLIS_FF")?;
         let (connections, parameters) = (&cell["connections"], &cell["parameters"]);
-        let own = match parameters["CEMUX"].as_str() {
+        // Yosys puts a space behind a text that could be a number.
+        let own = match parameters["CEMUX"].as_str().map(str::trim) {
             Some("CE") => connections["CE"][0].clone(),
             Some("1") => json!("1"),
             _ => return None,
