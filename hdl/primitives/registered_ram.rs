@@ -175,7 +175,12 @@ impl<T: Synth, const A: usize, const LATE: bool> Logic for RegisteredRam<T, A, L
                 "reg [{all}:0] @held;\nreg [{wide}:0] @choice, @choice_held;\nalways @(posedge clock) begin\n    \
                  if (@enable) @choice <= @read_address[{top}:{row}];\n    \
                  if (@output_enable) begin\n        @held <= @word;\n        @choice_held <= @choice;\n    end\nend\n\
-                 always @* @read_data = @held[@choice_held * {bits} +: {bits}];\n"
+                 wire [{last_bit}:0] @chosen;\ngenerate for (@k = 0; @k < {bits}; @k = @k + 1) begin : @bit\n    \
+                 wire [{banks_less_one}:0] lane;\n    for (@b = 0; @b < {banks}; @b = @b + 1) begin : from\n        \
+                 assign lane[@b] = @held[@b * {bits} + @k];\n    end\n    \
+                 assign @chosen[@k] = lane[@choice_held];\nend endgenerate\n\
+                 always @* @read_data = @chosen;\n",
+                last_bit = bits - 1,
             );
         }
         Verilog::Custom(text)
