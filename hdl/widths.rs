@@ -106,7 +106,7 @@ macro_rules! width_sets {
                     crate::sat_fetch_parallel::SatFetchParallel<{ $m + 1 }, { $m + 3 }, { 2 * $m + 2 }, $table, $b>;
                 /// Bisector.
                 pub type Bisector =
-                    crate::bisector::Bisector<{ $lattice + 1 }, { $lattice + 2 }, { 2 * $lattice + 1 }, $e>;
+                    crate::bisector::Bisector<{ $lattice + 1 }, { $lattice + 2 }, { 2 * $lattice - 2 }, $e>;
                 /// Mean of a rectangle.
                 pub type SatAverage = crate::sat_average::SatAverage<$b, { 2 * $m + 2 }, { 2 * $m + 4 }>;
                 /// Remesher.

@@ -15,8 +15,9 @@
 //! Pascucci 2001, in the maximum norm). Leaf errors are at most base + slope / 256 times the distance from the eye.
 //!
 //! Halves are walked along the Sierpinski curve: each leaf shares an edge with the one before it, so a leaf costs one new
-//! vertex (Pajarola 1998). Two walkers take turns, one for each root; one that has nothing left takes the bottom of the
-//! other's stack. Dead triangles ([`Lattice::is_dead`]) are left out, and where that tears a strip a new one starts.
+//! vertex (Pajarola 1998). [`WALKERS`] walkers take turns, two of them begin at the roots; one that has nothing left takes
+//! the bottom of another one's stack. Dead triangles ([`Lattice::is_dead`]) are left out, and where that tears a strip a
+//! new one starts.
 //!
 //! | port     | format                  | range |
 //! |----------|-------------------------|-------|
@@ -35,7 +36,7 @@ mod walkers;
 pub use lattice::{Lattice, MAX_SIDE, Node};
 pub use steering::{Bound, Errors, SplitMap, Steering};
 pub use unit::{Bisector, Command, Output, Vertex};
-pub use walkers::{Counts, STACK, Side, Triangle, golden};
+pub use walkers::{Counts, STACK, Side, Triangle, WALKERS, golden};
 
 use glam::DVec2;
 

@@ -237,7 +237,7 @@ impl Binding for BisectorBinding {
         "tessellates a height map by bisection, under a bound"
     }
     fn latency(&self) -> &'static str {
-        "11"
+        "32"
     }
     fn interval(&self) -> &'static str {
         "2 a triangle"

@@ -4,7 +4,7 @@
 use relief_hdl::bisector::Bisector as Hardware;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet, deep, position, small};
 use relief_hdl::with_width_set;
-use relief_models::bisector::{Bound, Command, Lattice, SplitMap, Vertex, golden};
+use relief_models::bisector::{Bound, Command, Lattice, SplitMap, Vertex, WALKERS, golden};
 use relief_models::step::{Kind, LeftCommand, MAX_COMPONENTS, RightCommand, Step};
 use relief_testbench::binding::{Beat, Binding, Random};
 use relief_testbench::bisector::{BisectorBinding, command_beat, corners_of, load_beats};
@@ -105,16 +105,36 @@ fn bisector_takes_two_cycles_a_triangle() {
         let [end] = &beats[beats.len() - 1..] else { panic!("no beat") };
         assert_eq!(end[END], 1);
         let cycles = end[CYCLES];
-        // A turn a cycle, two more for each strip's first two vertices, and filling and draining.
-        let turns = counts.turns + 2 * counts.strips;
-        assert!((turns..turns + 12).contains(&cycles), "{width} x {height}: {cycles} cycles, {counts:?}");
+        // A turn a cycle, filling and draining. The vertices that strips begin with wait in a queue, and it does not fill.
+        let turns = counts.turns;
+        assert!((turns..turns + 32).contains(&cycles), "{width} x {height}: {cycles} cycles, {counts:?}");
         let rate = cycles as f64 / counts.triangles as f64;
-        assert!(rate <= 2.0 + 0.08, "{width} x {height}: {rate} cycles a triangle");
+        assert!(rate <= 2.0 + 0.04, "{width} x {height}: {rate} cycles a triangle");
         // Stalled cycles do not count.
         let (_, stalled) = run(&small::SET, map_beats(&lattice, &split), Pattern { idle: 0, stall: 60, seed: 5 });
         let (end, before) = stalled.split_last().unwrap();
         assert_eq!((before.len(), end[CYCLES]), (beats.len() - 1, cycles));
     }
+}
+
+/// All that there is to do lies below one of the roots, in a corner: the other walkers have to take it from each other.
+#[test]
+fn bisector_keeps_its_pace_on_lopsided_maps() {
+    let lattice = Lattice::of(257, 257, false).unwrap();
+    let (mut split, mut random) = (SplitMap::new(&lattice), Random::new(4));
+    for _ in 0..3_000 {
+        let u = random.below(60) as u32;
+        split.insert(&lattice, [u, u + 1 + random.below(40) as u32]);
+    }
+    let counts = golden(&lattice, &split, &mut |_| {});
+    let (_, beats) = run(&small::SET, map_beats(&lattice, &split), Pattern::NONE);
+    let mut shares = [0; WALKERS];
+    beats.iter().filter(|beat| beat[END] == 0).for_each(|beat| shares[beat[WALKER] as usize] += 1);
+    let fair = counts.triangles / WALKERS as u64;
+    assert!(counts.triangles > 2_000 && counts.thefts >= 6, "{counts:?}");
+    assert!(shares.iter().all(|&share| share > fair / 2), "{shares:?}");
+    let rate = beats[beats.len() - 1][CYCLES] as f64 / counts.triangles as f64;
+    assert!(rate <= 2.0 + 0.1, "{rate} cycles a triangle, {counts:?}");
 }
 
 #[test]
@@ -158,7 +178,7 @@ fn bisector_reset_in_the_middle_of_a_draw() {
     let lattice = Lattice::of(5, 4, false).unwrap();
     let split = random_split(&lattice, 12);
     let beats: Vec<Beat> = map_beats(&lattice, &split).collect();
-    let device = || Box::new(Stepped::new(Hardware::<4, 5, 7, 1>::default()));
+    let device = || Box::new(Stepped::new(Hardware::<4, 5, 4, 1>::default()));
     let play = |stage: &mut Stage, cycles: usize| {
         let (mut sent, mut taken) = (0, Vec::new());
         for cycle in 0..cycles {
@@ -178,7 +198,7 @@ fn bisector_reset_in_the_middle_of_a_draw() {
     };
     let whole = play(&mut Stage::new(device()), 400);
     assert!(whole.len() > 10);
-    for cycles in 0..120 {
+    for cycles in 0..200 {
         let mut stage = Stage::new(device());
         play(&mut stage, cycles);
         stage.device.reset(1 + cycles % 2);
@@ -186,7 +206,7 @@ fn bisector_reset_in_the_middle_of_a_draw() {
         stage.offer(&beats[beats.len() - 1]);
         stage.inputs[stage.layout.out_ready] = 1;
         let mut ends = Vec::new();
-        for _ in 0..20 {
+        for _ in 0..40 {
             stage.settle();
             let accepts = stage.accepts();
             if stage.sends() {
@@ -232,7 +252,7 @@ fn bisector_feeds_the_strip_unit() {
     let lattice = Lattice::of(100, 70, false).unwrap();
     let split = random_split(&lattice, 900);
     let (_, beats) = run(&small::SET, map_beats(&lattice, &split), Pattern::NONE);
-    let mut units = [0, 1].map(|_| Stage::new(StripUnitBinding.device(&position::SET)));
+    let mut units = [0; WALKERS].map(|_| Stage::new(StripUnitBinding.device(&position::SET)));
     let ports = relief_testbench::remesh::TrianglePorts::of(&units[0].layout, &position::SET);
     let (mut sent, mut triangles) = (0, 0);
     for beat in beats.iter().filter(|beat| beat[END] == 0) {
@@ -265,7 +285,7 @@ fn bisector_feeds_the_strip_unit() {
         assert_eq!(got, triangle);
         triangles += 1;
     }
-    assert!(triangles > 2_000 && sent < triangles + triangles / 20, "{sent} vertices for {triangles} triangles");
+    assert!(triangles > 2_000 && sent < triangles + triangles / 10, "{sent} vertices for {triangles} triangles");
 }
 
 /// The largest map.

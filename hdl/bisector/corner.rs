@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One corner of a triangle, clamped to the map. Combinational.
+//! One corner of a triangle, clamped to the map.
 //!
-//! corner = min(m + 2^level dir(towards), rim), in lattice steps: v << 13 | u
+//! corner = min(m + step dir(towards), rim), in lattice steps: v << 13 | u
 //!
 //! | port       | format         |   Golden: models::bisector (Node::corners, Lattice::clamp)   Error 0
-//! | u, v, rim_* | unsigned H    | half steps   Example: (4, 4), level 2, towards 7, rims (6, 6): (3, 0)
-//! | level, towards | unsigned 4, 3 |
+//! | u, v, step, rim_* | unsigned H | half steps   Example: (4, 4), step 4, towards 7, rims (6, 6): (3, 0)
+//! | towards    | unsigned 3     |   Latency 2; holds while `go` is low
 //! | corner     | unsigned 26    |
 
 use crate::prelude::*;
@@ -14,17 +14,18 @@ use crate::prelude::*;
 #[derive(Clone, Debug, Default, LogicBlock)]
 #[allow(missing_docs)]
 pub struct BisectorCorner<const H: usize> {
+    pub clock: Input<ClockReset>,
+    pub go: Input<Bit>,
     pub u: Input<U<H>>,
     pub v: Input<U<H>>,
-    pub level: Input<U<4>>,
+    pub step: Input<U<H>>,
     pub towards: Input<U<3>>,
     pub rim_u: Input<U<H>>,
     pub rim_v: Input<U<H>>,
     pub corner: Output<U<26>>,
-    one: Wire<U<H>>,
-    step: Wire<U<H>>,
-    to_u: Wire<U<H>>,
-    to_v: Wire<U<H>>,
+    s1_u: DataRegister<U<H>>,
+    s1_v: DataRegister<U<H>>,
+    s2_corner: DataRegister<U<26>>,
     at_u: Wire<U<H>>,
     at_v: Wire<U<H>>,
 }
@@ -32,32 +33,38 @@ pub struct BisectorCorner<const H: usize> {
 impl<const H: usize> Logic for BisectorCorner<H> {
     #[hdl_gen]
     fn update(&mut self) {
-        // Corners lie in the lattice, 0 ..= 2^(K + 1).
-        self.one.next = 1.into();
-        self.step.next = self.one.val() << self.level.val();
-        self.to_u.next = self.u.val();
-        if self.towards.val() == 7 || self.towards.val() <= 1 {
-            self.to_u.next = self.u.val() + self.step.val();
-        } else if self.towards.val() >= 3 && self.towards.val() <= 5 {
-            self.to_u.next = self.u.val() - self.step.val();
-        }
-        self.to_v.next = self.v.val();
-        if self.towards.val() >= 1 && self.towards.val() <= 3 {
-            self.to_v.next = self.v.val() + self.step.val();
-        } else if self.towards.val() >= 5 {
-            self.to_v.next = self.v.val() - self.step.val();
-        }
-        self.at_u.next = self.to_u.val();
-        if self.to_u.val() > self.rim_u.val() {
+        dff_setup!(self, clock, s1_u, s1_v, s2_corner);
+        self.corner.next = self.s2_corner.q.val();
+        self.at_u.next = self.s1_u.q.val();
+        if self.s1_u.q.val() > self.rim_u.val() {
             self.at_u.next = self.rim_u.val();
         }
-        self.at_v.next = self.to_v.val();
-        if self.to_v.val() > self.rim_v.val() {
+        self.at_v.next = self.s1_v.q.val();
+        if self.s1_v.q.val() > self.rim_v.val() {
             self.at_v.next = self.rim_v.val();
         }
-        // Corners stand on lattice vertices: no bit is lost.
-        self.corner.next =
-            bit_cast_to::<U<26>>(self.at_u.val() >> 1) | (bit_cast_to::<U<26>>(self.at_v.val() >> 1) << 13);
+        if self.go.val() {
+            // s1_at: u goes nowhere for 2 and 6, and down for 3, 4 and 5. Corners lie in the lattice, 0 ..= 2^(K + 1).
+            self.s1_u.d.next = self.u.val();
+            if !(self.towards.val().get_bit(1) && !self.towards.val().get_bit(0)) {
+                if self.towards.val().get_bit(2) != self.towards.val().get_bit(1) {
+                    self.s1_u.d.next = self.u.val() - self.step.val();
+                } else {
+                    self.s1_u.d.next = self.u.val() + self.step.val();
+                }
+            }
+            self.s1_v.d.next = self.v.val();
+            if self.towards.val().get_bit(1) || self.towards.val().get_bit(0) {
+                if self.towards.val().get_bit(2) {
+                    self.s1_v.d.next = self.v.val() - self.step.val();
+                } else {
+                    self.s1_v.d.next = self.v.val() + self.step.val();
+                }
+            }
+            // s2_corner: corners stand on lattice vertices, so no bit is lost.
+            self.s2_corner.d.next =
+                bit_cast_to::<U<26>>(self.at_u.val() >> 1) | (bit_cast_to::<U<26>>(self.at_v.val() >> 1) << 13);
+        }
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -65,4 +72,4 @@ impl<const H: usize> Logic for BisectorCorner<H> {
     }
 }
 
-latches! { [const H: usize] BisectorCorner<H>: }
+latches! { [const H: usize] BisectorCorner<H>: s1_u, s1_v, s2_corner }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two walkers, turn by turn: which triangles they emit, and in which order.
+//! The walkers, turn by turn: which triangles they emit, and in which order.
 
 use super::{Lattice, Node, Steering};
 
@@ -21,7 +21,7 @@ pub struct Triangle {
     pub side: Side,
     /// Left and right vertex are not those that the walker's last triangle left.
     pub start: bool,
-    /// The walker, 0 or 1; each makes strips of its own.
+    /// The walker, one of [`WALKERS`]; each makes strips of its own.
     pub walker: u8,
 }
 
@@ -36,6 +36,8 @@ pub struct Counts {
     pub strips: u64,
     /// Turns, of which a walker without work lets pass its own: the cycles of the hardware's walk.
     pub turns: u64,
+    /// Triangles that a walker took from another one's stack.
+    pub thefts: u64,
     /// The deepest stack.
     pub deepest: usize,
 }
@@ -53,21 +55,35 @@ struct Entry {
 /// Entries that a stack can hold: two a level, and the root.
 pub const STACK: usize = 32;
 
+/// Walkers. The first two begin at the roots, the others by taking from a stack.
+pub const WALKERS: usize = 8;
+
+/// Turns from a walker's own to the one behind which it looks for work.
+const SEARCH: usize = 2;
+
+/// Walkers that it looks at, by the turns that theirs came before its own.
+const VICTIMS: [usize; 3] = [1, 3, 5];
+
 #[derive(Clone, Debug)]
 struct Walker {
     visiting: Option<Entry>,
-    /// A ring: entries leave at the top, and at the bottom for the other walker.
+    /// A ring: entries leave at the top, and at the bottom for other walkers.
     stack: [Entry; STACK],
     bottom: usize,
     length: usize,
+    /// Something was taken from it since its last turn: that is enough.
+    robbed: bool,
+    /// What it took: it visits that from its next turn on.
+    taken: Option<Entry>,
     /// Left and right vertex that the last triangle left.
     rung: Option<[[u32; 2]; 2]>,
 }
 
 impl Walker {
-    fn new(root: Node) -> Self {
+    fn new(root: Node, begins: bool) -> Self {
         let root = Entry { node: root, enters_long: false, leaves_long: false };
-        Self { visiting: None, stack: [root; STACK], bottom: 0, length: 1, rung: None }
+        let visiting = begins.then_some(root);
+        Self { visiting, stack: [root; STACK], bottom: 0, length: 0, robbed: false, taken: None, rung: None }
     }
     #[inline]
     fn push(&mut self, entry: Entry) {
@@ -85,34 +101,48 @@ impl Walker {
         self.length -= 1;
         entry
     }
+    #[inline]
+    fn is_idle(&self) -> bool {
+        self.visiting.is_none() && self.length == 0 && self.taken.is_none()
+    }
+    /// Gives its bottom away where more than that is left, once between two turns.
+    fn give(&mut self) -> Option<Entry> {
+        let gives = self.length > 1 && !self.robbed;
+        self.robbed |= gives;
+        gives.then(|| self.pop_bottom())
+    }
 }
 
 /// Walks the map and hands its triangles to `sink`, in the order of the hardware.
 pub fn golden<S: Steering>(lattice: &Lattice, steering: &S, sink: &mut impl FnMut(&Triangle)) -> Counts {
-    let mut walkers = lattice.roots().map(Walker::new);
-    let mut counts = Counts { deepest: 1, ..Counts::default() };
+    let roots = lattice.roots();
+    let mut walkers: [Walker; WALKERS] = std::array::from_fn(|at| Walker::new(roots[at % 2], at < 2));
+    let mut counts = Counts { visits: 2, ..Counts::default() };
     let mut turn = 0;
-    while walkers.iter().any(|walker| walker.visiting.is_some() || walker.length > 0) {
-        let [first, second] = &mut walkers;
-        let (walker, other) = if turn == 0 { (first, second) } else { (second, first) };
+    while !walkers.iter().all(Walker::is_idle) {
+        let walker = &mut walkers[turn];
+        walker.robbed = false;
         walker.visiting = match walker.visiting {
             Some(entry) if splits(lattice, steering, entry.node) => walker.split(lattice, entry),
             Some(entry) => {
-                let triangle = walker.leaf(lattice, entry, turn);
+                let triangle = walker.leaf(lattice, entry, turn as u8);
                 counts.triangles += 1;
                 counts.strips += u64::from(triangle.start);
                 sink(&triangle);
                 walker.pop()
             }
-            None => walker.pop(),
+            None => walker.taken.take(),
         };
         counts.deepest = counts.deepest.max(walker.length);
         counts.visits += u64::from(walker.visiting.is_some());
-        if walker.visiting.is_none() && other.length > 1 {
-            walker.push(other.pop_bottom());
+        let before = |walker: usize, turns: usize| (walker + WALKERS - turns) % WALKERS;
+        let thief = before(turn, SEARCH);
+        if walkers[thief].is_idle() {
+            walkers[thief].taken = VICTIMS.into_iter().find_map(|turns| walkers[before(thief, turns)].give());
+            counts.thefts += u64::from(walkers[thief].taken.is_some());
         }
         counts.turns += 1;
-        turn ^= 1;
+        turn = (turn + 1) % WALKERS;
     }
     counts
 }

@@ -3,7 +3,9 @@
 
 use glam::DVec2;
 use proptest::prelude::*;
-use relief_models::bisector::{Bound, Counts, Errors, Lattice, Node, SplitMap, Steering, Triangle, exact, golden};
+use relief_models::bisector::{
+    Bound, Counts, Errors, Lattice, Node, SplitMap, Steering, Triangle, WALKERS, exact, golden,
+};
 use std::collections::{HashMap, HashSet};
 
 fn tessellate<S: Steering>(lattice: &Lattice, steering: &S) -> (Vec<Triangle>, Counts) {
@@ -36,7 +38,7 @@ fn double_area([a, b, c]: [[u32; 2]; 3]) -> i64 {
 fn check(lattice: &Lattice, triangles: &[Triangle], counts: &Counts) {
     let name = format!("{lattice:?}");
     let mut edges: HashMap<[[u32; 2]; 2], i32> = HashMap::new();
-    let (mut area, mut held) = (0, [None; 2]);
+    let (mut area, mut held) = (0, [None; WALKERS]);
     for triangle in triangles {
         let [left, right, new] = triangle.corners;
         let own = double_area(triangle.corners);
@@ -129,8 +131,35 @@ fn bisector_covers_long_and_large_maps() {
 fn bisector_takes_two_turns_a_triangle_at_most_on_a_full_square() {
     let lattice = Lattice::of(257, 257, false).unwrap();
     let (triangles, counts) = tessellate(&lattice, &random_split(&lattice, 10, 3));
-    assert!(counts.turns <= 2 * triangles.len() as u64 + 16, "{counts:?}");
+    // A walker without work lets pass a turn or two until it has some again.
+    assert!(counts.turns <= 2 * triangles.len() as u64 + 4 * counts.thefts + 64, "{counts:?}");
+    assert!(counts.thefts >= 6 && counts.thefts < counts.triangles / 100, "{counts:?}");
     assert_eq!(counts.visits, 2 * counts.triangles - 2);
+}
+
+/// Everything lies below one root, in one place or on one line: without thefts one walker would take eight turns a visit.
+#[test]
+fn bisector_shares_lopsided_maps() {
+    let lattice = Lattice::of(257, 257, false).unwrap();
+    let corner = |at: u32| [at % 40, at % 40 + 1 + (at / 40) % 30];
+    let line = |at: u32| [at % 256, at % 256 + 1];
+    let spot = |at: u32| [60 + at % 30, 180 + (at / 30) % 30];
+    for (name, place) in [("corner", &corner as &dyn Fn(u32) -> [u32; 2]), ("line", &line), ("spot", &spot)] {
+        let mut split = SplitMap::new(&lattice);
+        (0..1_200).for_each(|at| split.insert(&lattice, place(at)));
+        let (triangles, counts) = tessellate(&lattice, &split);
+        check(&lattice, &triangles, &counts);
+        let rate = counts.turns as f64 / counts.triangles as f64;
+        assert!(rate < 2.1, "{name}: {rate} turns a triangle, {counts:?}");
+        for walker in 0..WALKERS {
+            let share = triangles.iter().filter(|triangle| usize::from(triangle.walker) == walker).count();
+            assert!(
+                share * 2 * WALKERS > triangles.len(),
+                "{name}: walker {walker} has {share} of {}",
+                triangles.len()
+            );
+        }
+    }
 }
 
 #[test]
