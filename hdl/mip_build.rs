@@ -6,7 +6,7 @@
 //! cell:  level L+1 cell (i, j) = max and min of the 2 x 2 cells (2i .. 2i+1, 2j .. 2j+1) of level L
 //! ```
 //!
-//! | port        | format      | meaning |   Latency 12 from the last texel of a map of odd sides   Interval 1 (see fold)
+//! | port        | format      | meaning |   Latency 15 from the last texel of a map of odd sides   Interval 1 (see fold)
 //! | in_kind     | 1 bit       | 0 size, 1 texel, in raster order   Golden: models::mip_build::MipBuild   Error 0
 //! | in_width, in_height | unsigned M | of the map, at least one | size
 //! | in_repeat_u, in_repeat_v | Bit | the map repeats; the side must be even at every level | size
@@ -90,6 +90,9 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     height_last: DataRegister<U<M>>,
     column: DataRegister<U<M>>,
     row: DataRegister<U<M>>,
+    /// The row is of the upper pole, or of the lower one: decided with the row, for what is sent waits for it.
+    in_upper: Register<Bit>,
+    in_lower: Register<Bit>,
     // The map.
     levels: DataRegister<U<4>>,
     repeat_u: DataRegister<Bit>,
@@ -163,14 +166,14 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
 
 impl<const M: usize, const A: usize, const B: usize> MipBuild<M, A, B> {
     /// Cycles from the last texel of a map of odd sides to the first node.
-    pub const LATENCY: usize = 12;
+    pub const LATENCY: usize = 15;
 }
 
 impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, area, fold, poles, odd_levels, even_levels, feed);
-        dff_setup!(self, clock, feed_in, feed_out, feed_valid, feed_room);
+        dff_setup!(self, clock, feed_in, feed_out, feed_valid, feed_room, in_upper, in_lower);
         dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
         dff_setup!(self, clock, has_poles, width_last, height_last, width_above, height_above, folds, sides_fit);
         dff_setup!(self, clock, nodes_fit, measured, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
@@ -333,6 +336,8 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.poles.on_map.next = self.on_map.val();
         self.poles.cells.next = self.cells.q.val();
         self.poles.row.next = self.row.q.val();
+        self.poles.in_upper.next = self.in_upper.q.val();
+        self.poles.in_lower.next = self.in_lower.q.val();
         self.poles.max.next = self.texel_max.val();
         self.poles.min.next = self.texel_min.val();
         self.replaces.next = self.has_poles.q.val() && self.poles.in_pole.val();
@@ -352,11 +357,17 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             if self.last_column.val() {
                 self.column.d.next = 0.into();
                 self.row.d.next = self.row.q.val() + 1;
+                self.in_upper.d.next = false;
+                self.in_lower.d.next = self.row.q.val() + 1 >= self.poles.map_last.val();
                 if self.sends_poles.val() {
                     self.row.d.next = self.poles.map_last.val();
+                    self.in_upper.d.next = self.poles.map_last.val() == 0;
+                    self.in_lower.d.next = true;
                 }
                 if self.last_row.val() {
                     self.row.d.next = 0.into();
+                    self.in_upper.d.next = true;
+                    self.in_lower.d.next = self.poles.map_last.val() == 0;
                     self.state.d.next = MipBuildState::Idle;
                     if self.folds.q.val() {
                         self.state.d.next = MipBuildState::Flush;
@@ -375,6 +386,8 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.height_last.d.next = self.height_above.q.val() - 1;
             self.column.d.next = 0.into();
             self.row.d.next = 0.into();
+            self.in_upper.d.next = true;
+            self.in_lower.d.next = (self.poles.map_last.val() >> 1) == 0;
         }
         if self.size.val() {
             self.state.d.next = MipBuildState::Measure;
@@ -386,6 +399,8 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.height_last.d.next = self.in_height.val() - 1;
             self.column.d.next = 0.into();
             self.row.d.next = 0.into();
+            self.in_upper.d.next = true;
+            self.in_lower.d.next = self.in_height.val() == 1;
             self.levels.d.next = self.in_levels.val();
             self.repeat_u.d.next = self.in_repeat_u.val();
             self.repeat_v.d.next = self.in_repeat_v.val();
@@ -448,6 +463,6 @@ ports! {
         inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_poles, in_levels, in_value, out_ready;
         outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
         blocks: fold, poles, odd_levels, even_levels;
-        state: state, failed, level, width, height, width_last, height_last, column, row, levels, repeat_u, repeat_v, cells, has_poles, width_above, height_above, folds, sides_fit, nodes_fit, measured, feed, feed_in, feed_out, feed_valid, feed_room, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, spare_valid, spare_level, spare_i, spare_j, spare_max, spare_min, spare_last, area, fold, poles, odd_levels, even_levels
+        state: state, failed, level, width, height, width_last, height_last, column, row, levels, repeat_u, repeat_v, cells, has_poles, in_upper, in_lower, width_above, height_above, folds, sides_fit, nodes_fit, measured, feed, feed_in, feed_out, feed_valid, feed_room, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, spare_valid, spare_level, spare_i, spare_j, spare_max, spare_min, spare_last, area, fold, poles, odd_levels, even_levels
     }
 }

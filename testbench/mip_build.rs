@@ -177,7 +177,7 @@ impl Binding for MipBuildBinding {
         "builds the maxima and minima of every filter level of a map"
     }
     fn latency(&self) -> &'static str {
-        "12"
+        "15"
     }
     fn interval(&self) -> &'static str {
         "1 (a map of N texels takes about 4/3 N)"

@@ -6,16 +6,18 @@
 //! | op, fresh     | Bit        | takes `max` and `min` into the node at `address`, or makes them the node
 //! | busy          | Bit        | the first read would overtake an op   Golden: models::mip_build   Error 0
 //! | rewind        | Bit        | the next node to be read is node 0
-//! | read          | Bit        | reads the next node; not together with `op`, nor while `busy`
-//! | word, word_valid | 32 bits, Bit | three cycles later: maximum * 2^16 + minimum
+//! | read          | Bit        | reads the next node; not together with `op`, nor while `busy` or in the cycle behind
+//! | word, word_valid | 32 bits, Bit | four cycles later: maximum * 2^16 + minimum
 //!
 //! The block RAMs lie far apart, so nothing holds them, and what goes to all of them comes from registers.
 //!
 //! | stage      | what becomes of an op
 //! | s1_address | the node is addressed
-//! | s2_read    | the block RAM answers; are the ops in s3, s4 and s5 of the same node?
-//! | s3_compare | the extrema are compared with the node, or with what these ops have made of it, the last one first
-//! | s4_write   | the node is written, by the register within the RAM; s5_written keeps it for another cycle
+//! | s2_read    | the block RAM answers; are the ops in s3 to s7 of the same node?
+//! | s3_word    | its word comes, from whichever block RAM
+//! | s4_choose  | or what the ops two to five before have made of the node, the last one first
+//! | s5_compare | the extrema are compared with that, or with what the op before has made of it
+//! | s6_write   | the node is written, by the register within the RAM; s7_written keeps it for another cycle
 
 use crate::prelude::*;
 
@@ -35,11 +37,12 @@ pub struct ExtremaMemory<const A: usize> {
     pub word: Output<U<32>>,
     pub word_valid: Output<Bit>,
     ram: RegisteredRam<U<32>, A, true>,
-    /// The node to be read, and the reads that are addressed, answered, and in the register of the RAM.
+    /// The node to be read, and the reads that are addressed, answered, in the register of the RAM, and here.
     read_at: DataRegister<U<A>>,
     s1_read: Register<Bit>,
     s2_read: Register<Bit>,
     s3_read: Register<Bit>,
+    s4_read: Register<Bit>,
     s1_op: Register<Bit>,
     s1_fresh: DataRegister<Bit>,
     s1_address: DataRegister<U<A>>,
@@ -55,19 +58,39 @@ pub struct ExtremaMemory<const A: usize> {
     s3_address: DataRegister<U<A>>,
     s3_max: DataRegister<U<16>>,
     s3_min: DataRegister<U<16>>,
-    /// The op before is of the same node; or one of the two before that, whose word is kept.
+    /// The op before is of the same node; the one before that; the third; or the fourth or fifth, whose word is kept.
     s3_follows: DataRegister<Bit>,
+    s3_second: DataRegister<Bit>,
+    s3_third: DataRegister<Bit>,
     s3_repeats: DataRegister<Bit>,
-    s3_word: DataRegister<U<32>>,
+    s3_kept: DataRegister<U<32>>,
     s4_op: Register<Bit>,
+    s4_fresh: DataRegister<Bit>,
     s4_address: DataRegister<U<A>>,
+    s4_max: DataRegister<U<16>>,
+    s4_min: DataRegister<U<16>>,
+    s4_follows: DataRegister<Bit>,
+    s4_second: DataRegister<Bit>,
+    s4_repeats: DataRegister<Bit>,
+    s4_kept: DataRegister<U<32>>,
     s4_word: DataRegister<U<32>>,
     s5_op: Register<Bit>,
+    s5_fresh: DataRegister<Bit>,
     s5_address: DataRegister<U<A>>,
+    s5_max: DataRegister<U<16>>,
+    s5_min: DataRegister<U<16>>,
+    s5_follows: DataRegister<Bit>,
     s5_word: DataRegister<U<32>>,
+    s6_op: Register<Bit>,
+    s6_address: DataRegister<U<A>>,
+    s6_word: DataRegister<U<32>>,
+    s7_op: Register<Bit>,
+    s7_address: DataRegister<U<A>>,
+    s7_word: DataRegister<U<32>>,
+    word_behind: Wire<U<32>>,
     new_word: Wire<U<32>>,
-    same_as_s4: Wire<Bit>,
-    same_as_s5: Wire<Bit>,
+    same_as_s6: Wire<Bit>,
+    same_as_s7: Wire<Bit>,
     old: Wire<U<32>>,
     old_max: Wire<U<16>>,
     old_min: Wire<U<16>>,
@@ -79,19 +102,22 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, ram);
-        dff_setup!(self, clock, read_at, s1_read, s2_read, s3_read, s1_op, s1_fresh, s1_address, s1_max, s1_min);
-        dff_setup!(self, clock, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max);
-        dff_setup!(self, clock, s3_min, s3_follows, s3_repeats, s3_word, s4_op, s4_address, s4_word, s5_op);
-        dff_setup!(self, clock, s5_address, s5_word);
-        // An op in s3 is written before the first read gets there.
-        self.busy.next = self.s1_op.q.val() || self.s2_op.q.val();
+        dff_setup!(self, clock, read_at, s1_read, s2_read, s3_read, s4_read, s1_op, s1_fresh, s1_address, s1_max);
+        dff_setup!(self, clock, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address);
+        dff_setup!(self, clock, s3_max, s3_min, s3_follows, s3_second, s3_third, s3_repeats, s3_kept, s4_op, s4_fresh);
+        dff_setup!(self, clock, s4_address, s4_max, s4_min, s4_follows, s4_second, s4_repeats, s4_kept, s4_word);
+        dff_setup!(self, clock, s5_op, s5_fresh, s5_address, s5_max, s5_min, s5_follows, s5_word, s6_op, s6_address);
+        dff_setup!(self, clock, s6_word, s7_op, s7_address, s7_word);
+        // An op in s5 is written before the first read gets there.
+        self.busy.next = self.s1_op.q.val() || self.s2_op.q.val() || self.s3_op.q.val() || self.s4_op.q.val();
         self.ram.enable.next = true;
         self.ram.output_enable.next = true;
-        self.word.next = self.ram.read_data.val();
-        self.word_valid.next = self.s3_read.q.val();
+        self.word.next = self.s4_word.q.val();
+        self.word_valid.next = self.s4_read.q.val();
         self.s1_read.d.next = self.read.val();
         self.s2_read.d.next = self.s1_read.q.val();
         self.s3_read.d.next = self.s2_read.q.val();
+        self.s4_read.d.next = self.s3_read.q.val();
         if self.read.val() {
             self.read_at.d.next = self.read_at.q.val() + 1;
         }
@@ -114,50 +140,78 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
         self.s2_address.d.next = self.s1_address.q.val();
         self.s2_max.d.next = self.s1_max.q.val();
         self.s2_min.d.next = self.s1_min.q.val();
-        // s3_compare
+        // s3_word
         self.s3_op.d.next = self.s2_op.q.val();
         self.s3_fresh.d.next = self.s2_fresh.q.val();
         self.s3_address.d.next = self.s2_address.q.val();
         self.s3_max.d.next = self.s2_max.q.val();
         self.s3_min.d.next = self.s2_min.q.val();
         self.s3_follows.d.next = self.s3_op.q.val() && self.s3_address.q.val() == self.s2_address.q.val();
-        self.same_as_s4.next = self.s4_op.q.val() && self.s4_address.q.val() == self.s2_address.q.val();
-        self.same_as_s5.next = self.s5_op.q.val() && self.s5_address.q.val() == self.s2_address.q.val();
-        self.s3_repeats.d.next = self.same_as_s4.val() || self.same_as_s5.val();
-        self.s3_word.d.next = self.s5_word.q.val();
-        if self.same_as_s4.val() {
-            self.s3_word.d.next = self.s4_word.q.val();
+        self.s3_second.d.next = self.s4_op.q.val() && self.s4_address.q.val() == self.s2_address.q.val();
+        self.s3_third.d.next = self.s5_op.q.val() && self.s5_address.q.val() == self.s2_address.q.val();
+        self.same_as_s6.next = self.s6_op.q.val() && self.s6_address.q.val() == self.s2_address.q.val();
+        self.same_as_s7.next = self.s7_op.q.val() && self.s7_address.q.val() == self.s2_address.q.val();
+        self.s3_repeats.d.next = self.same_as_s6.val() || self.same_as_s7.val();
+        self.s3_kept.d.next = self.s7_word.q.val();
+        if self.same_as_s6.val() {
+            self.s3_kept.d.next = self.s6_word.q.val();
         }
-        self.old.next = self.ram.read_data.val();
-        if self.s3_follows.q.val() {
-            self.old.next = self.s4_word.q.val();
-        } else if self.s3_repeats.q.val() {
-            self.old.next = self.s3_word.q.val();
+        // s4_choose
+        self.s4_op.d.next = self.s3_op.q.val();
+        self.s4_fresh.d.next = self.s3_fresh.q.val();
+        self.s4_address.d.next = self.s3_address.q.val();
+        self.s4_max.d.next = self.s3_max.q.val();
+        self.s4_min.d.next = self.s3_min.q.val();
+        self.s4_follows.d.next = self.s3_follows.q.val();
+        self.s4_second.d.next = self.s3_second.q.val();
+        self.s4_repeats.d.next = self.s3_third.q.val() || self.s3_repeats.q.val();
+        self.s4_kept.d.next = self.s3_kept.q.val();
+        if self.s3_third.q.val() {
+            self.s4_kept.d.next = self.s6_word.q.val();
+        }
+        self.s4_word.d.next = self.ram.read_data.val();
+        self.word_behind.next = self.s4_word.q.val();
+        if self.s4_second.q.val() {
+            self.word_behind.next = self.s6_word.q.val();
+        } else if self.s4_repeats.q.val() {
+            self.word_behind.next = self.s4_kept.q.val();
+        }
+        // s5_compare
+        self.s5_op.d.next = self.s4_op.q.val();
+        self.s5_fresh.d.next = self.s4_fresh.q.val();
+        self.s5_address.d.next = self.s4_address.q.val();
+        self.s5_max.d.next = self.s4_max.q.val();
+        self.s5_min.d.next = self.s4_min.q.val();
+        self.s5_follows.d.next = self.s4_follows.q.val();
+        self.s5_word.d.next = self.word_behind.val();
+        self.old.next = self.s5_word.q.val();
+        if self.s5_follows.q.val() {
+            self.old.next = self.s6_word.q.val();
         }
         self.old_max.next = self.old.val().get_bits::<16>(16);
         self.old_min.next = self.old.val().get_bits::<16>(0);
-        self.new_max.next = self.s3_max.q.val();
-        self.new_min.next = self.s3_min.q.val();
-        if !self.s3_fresh.q.val() {
-            if self.old_max.val() > self.s3_max.q.val() {
+        self.new_max.next = self.s5_max.q.val();
+        self.new_min.next = self.s5_min.q.val();
+        if !self.s5_fresh.q.val() {
+            if self.old_max.val() > self.s5_max.q.val() {
                 self.new_max.next = self.old_max.val();
             }
-            if self.old_min.val() < self.s3_min.q.val() {
+            if self.old_min.val() < self.s5_min.q.val() {
                 self.new_min.next = self.old_min.val();
             }
         }
-        // s4_write, s5_written
-        self.s4_op.d.next = self.s3_op.q.val();
-        self.s4_address.d.next = self.s3_address.q.val();
+        // s6_write, s7_written
+        self.s6_op.d.next = self.s5_op.q.val();
+        self.s6_address.d.next = self.s5_address.q.val();
         self.new_word.next =
             (bit_cast_to::<U<32>>(self.new_max.val()) << 16) | bit_cast_to::<U<32>>(self.new_min.val());
-        self.s4_word.d.next = self.new_word.val();
-        self.ram.write_enable.next = self.s3_op.q.val();
-        self.ram.write_address.next = self.s3_address.q.val();
+        self.s6_word.d.next = self.new_word.val();
+        self.ram.write_enable.next = self.s5_op.q.val();
+        self.ram.write_address.next = self.s5_address.q.val();
         self.ram.write_data.next = self.new_word.val();
-        self.s5_op.d.next = self.s4_op.q.val();
-        self.s5_address.d.next = self.s4_address.q.val();
-        self.s5_word.d.next = self.s4_word.q.val();
+        self.s7_op.d.next = self.s6_op.q.val();
+        self.s7_address.d.next = self.s6_address.q.val();
+        self.s7_word.d.next = self.s6_word.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -165,4 +219,4 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
     }
 }
 
-latches! { [const A: usize] ExtremaMemory<A>: ram, read_at, s1_read, s2_read, s3_read, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max, s3_min, s3_follows, s3_repeats, s3_word, s4_op, s4_address, s4_word, s5_op, s5_address, s5_word }
+latches! { [const A: usize] ExtremaMemory<A>: ram, read_at, s1_read, s2_read, s3_read, s4_read, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max, s3_min, s3_follows, s3_second, s3_third, s3_repeats, s3_kept, s4_op, s4_fresh, s4_address, s4_max, s4_min, s4_follows, s4_second, s4_repeats, s4_kept, s4_word, s5_op, s5_fresh, s5_address, s5_max, s5_min, s5_follows, s5_word, s6_op, s6_address, s6_word, s7_op, s7_address, s7_word }

@@ -30,6 +30,9 @@ pub struct MipPoles<const M: usize> {
     pub on_map: Input<Bit>,
     pub cells: Input<Bit>,
     pub row: Input<U<M>>,
+    /// The row is of the upper pole, or of the lower one.
+    pub in_upper: Input<Bit>,
+    pub in_lower: Input<Bit>,
     pub max: Input<U<16>>,
     pub min: Input<U<16>>,
     pub in_pole: Output<Bit>,
@@ -56,7 +59,6 @@ pub struct MipPoles<const M: usize> {
     next_upper_min: DataRegister<U<16>>,
     next_lower_max: DataRegister<U<16>>,
     next_lower_min: DataRegister<U<16>>,
-    in_lower: Wire<Bit>,
     row_above: Wire<U<M>>,
     lower_above: Wire<U<M>>,
 }
@@ -70,8 +72,7 @@ impl<const M: usize> Logic for MipPoles<M> {
         self.busy.next = self.s1_take.q.val();
         self.map_last.next = self.lower_row.q.val();
         // Where both poles are one row, it is the lower one's, which covers the upper one.
-        self.in_lower.next = self.row.val() >= self.lower_row.q.val();
-        self.in_pole.next = self.in_lower.val() || self.row.val() == 0;
+        self.in_pole.next = self.in_lower.val() || self.in_upper.val();
         self.pole_max.next = self.upper_max.q.val();
         self.pole_min.next = self.upper_min.q.val();
         if self.in_lower.val() {
@@ -87,7 +88,7 @@ impl<const M: usize> Logic for MipPoles<M> {
         self.s1_take.d.next = self.take.val();
         self.s1_max.d.next = self.max.val();
         self.s1_min.d.next = self.min.val();
-        self.s1_upper.d.next = self.on_map.val() && self.row.val() == 0;
+        self.s1_upper.d.next = self.on_map.val() && self.in_upper.val();
         self.s1_lower.d.next = self.on_map.val() && self.in_lower.val();
         self.s1_next_upper.d.next = self.row.val() < 2;
         self.s1_next_lower.d.next = self.row_above.val() >= self.lower_above.val();
