@@ -20,7 +20,7 @@ impl Binding for SatFetchParallelBinding {
         "the sum of a rectangle from four copies of a summed-area table"
     }
     fn latency(&self) -> &'static str {
-        "15"
+        "17"
     }
     fn interval(&self) -> &'static str {
         "1"
