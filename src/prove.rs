@@ -4,7 +4,7 @@
 //!
 //! | module       | what it does                                                     |
 //! |--------------|------------------------------------------------------------------|
-//! | [`contract`] | what each block promises on its streams                          |
+//! | [`contract`] | what each block promises on its streams, and parts of blocks      |
 //! | [`wrapper`]  | a module round a block that says so in assertions, and its faults |
 //! | [`solve`]    | runs Yosys and the solver                                        |
 
@@ -25,14 +25,23 @@ pub enum Property {
     Answered,
     /// The payload is what an independent formula says.
     Equal,
-    /// A beat that had to wait is taken: the proofs above are about something.
+    /// Nothing is pushed into a full queue or memory, nor taken from an empty one.
+    Room,
+    /// A beat that had to wait is taken, and states are reached: the proofs above are about something.
     Reached,
 }
 
 impl Property {
     /// All of them.
-    pub const ALL: [Property; 6] =
-        [Property::Held, Property::Free, Property::Counted, Property::Answered, Property::Equal, Property::Reached];
+    pub const ALL: [Property; 7] = [
+        Property::Held,
+        Property::Free,
+        Property::Counted,
+        Property::Answered,
+        Property::Equal,
+        Property::Room,
+        Property::Reached,
+    ];
 
     /// The name, as `--property` takes it and labels begin with it.
     pub const fn name(self) -> &'static str {
@@ -42,6 +51,7 @@ impl Property {
             Property::Counted => "counted",
             Property::Answered => "answered",
             Property::Equal => "equal",
+            Property::Room => "room",
             Property::Reached => "reached",
         }
     }

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use relief::prove::Property;
+use relief::prove::contract::{CONTRACTS, Contract, find};
 use relief::prove::solve::{Proof, Solver, Verdict};
 
 use super::{Outcome, Result, select, write_all};
@@ -13,11 +14,12 @@ use super::{Outcome, Result, select, write_all};
 /// Prove that the emitted Verilog of blocks keeps what its streams promise
 ///
 /// held: valid and payload stand while they are not taken. free: they do not follow out_ready within a cycle. counted: no
-/// answer without a request, and no more under way than the block holds. answered: an answer comes in time. equal: the
-/// payload is what an independent formula says. reached: a beat that had to wait is taken. See docs/prove.md.
+/// answer without a request, and as many under way as stand in the stages. answered: an answer comes in time. equal: the
+/// payload is what an independent formula says. room: no queue or memory overflows. reached: a beat that had to wait is
+/// taken, and states are reached. Parts of blocks are proved alone where that says more. See docs/prove.md.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The blocks; all of them when none is named
+    /// The blocks and parts; all of them when none is named
     #[arg(value_name = "BLOCK")]
     blocks: Vec<String>,
     /// Width set
@@ -36,20 +38,20 @@ const TRACES: &str = "target/relief-proofs";
 
 /// Proves and reports.
 pub fn run(arguments: &Arguments) -> Result {
-    let blocks = select::blocks(&arguments.blocks)?;
+    let contracts = contracts(&arguments.blocks)?;
     let set = select::width_set(Some(&arguments.param))?;
     let solver = Solver::find()?;
     let properties = if arguments.property.is_empty() { Property::ALL.to_vec() } else { arguments.property.clone() };
     write_all(stdout(), &format!("{:18} {:9} {:9} {:>8}\n", "block", "property", "verdict", "seconds"))?;
     let mut failed = 0;
-    for block in blocks {
-        let name = block.name();
+    for contract in contracts {
+        let name = contract.name;
         let begun = Instant::now();
-        let proof = Proof::new(&solver, block, set, arguments.fault)?;
+        let proof = Proof::new(&solver, contract, set, arguments.fault)?;
         let line = |property: &str, verdict: &str, seconds: f64, what: &str| {
             format!("{name:18} {property:9} {verdict:9} {seconds:>8.1}  {what}\n")
         };
-        write_all(stdout(), &line("-", "read", begun.elapsed().as_secs_f64(), "transition relation written"))?;
+        write_all(stdout(), &line("-", "read", begun.elapsed().as_secs_f64(), &what(contract)))?;
         for property in &properties {
             let begun = Instant::now();
             let waveform = Path::new(TRACES).join(format!("{name}.{}.vcd", property.name()));
@@ -72,4 +74,26 @@ pub fn run(arguments: &Arguments) -> Result {
         return Ok(Outcome::Mismatch);
     }
     Ok(Outcome::Agreed)
+}
+
+/// What was read.
+fn what(contract: &Contract) -> String {
+    match contract.part {
+        Some(part) => format!("a part of {}: {}", part.of, part.widths),
+        None => "transition relation written".into(),
+    }
+}
+
+/// The contracts of these names, each once, in the order given; all of them when there is no name.
+fn contracts(names: &[String]) -> std::result::Result<Vec<&'static Contract>, String> {
+    let known = || CONTRACTS.iter().map(|contract| contract.name).collect::<Vec<_>>().join(", ");
+    let mut contracts: Vec<&'static Contract> = vec![];
+    for name in names {
+        let contract =
+            find(name).ok_or_else(|| format!("there is no block or part `{name}` to prove; {} are", known()))?;
+        if contracts.iter().all(|other| other.name != contract.name) {
+            contracts.push(contract);
+        }
+    }
+    Ok(if names.is_empty() { CONTRACTS.iter().collect() } else { contracts })
 }

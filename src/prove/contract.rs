@@ -1,187 +1,300 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What each block promises on its streams, beyond what every stream promises.
+//! What each block promises on its streams, and what parts of blocks promise that a solver sees through alone.
+//!
+//! The promises are Verilog (`src/prove/contract/*.sv`) in a module round the block (`wrapper`): labels begin with the
+//! name of the property, and `\block.x ` is the signal `x` of the block, or of an instance within it.
 
-/// The promises of a block.
+use relief_hdl::mip_build::ExtremaMemory;
+use relief_hdl::primitives::Divider;
+use relief_hdl::remesher::{EdgeSetup, InteriorSetup, Sweep, TriangleSetup};
+use relief_hdl::verilog::{Emission, EmitError, emit};
+
+use super::Property;
+
+/// The promises of a block, or of a part.
 #[derive(Clone, Copy, Debug)]
 pub struct Contract {
     /// Its name.
-    pub block: &'static str,
-    /// Requests and answers, where each request has one answer.
+    pub name: &'static str,
+    /// A part is emitted alone, at widths of its own; a block at the width set that is asked for.
+    pub part: Option<Part>,
+    /// Requests and answers, where the block counts them.
     pub exchange: Option<Exchange>,
-    /// A formula for the payload.
-    pub formula: Option<Formula>,
-    /// Cycles from reset in which a beat can be made to wait.
+    /// Assertions and covers.
+    pub text: &'static str,
+    /// How the assertions are proved.
+    pub claims: &'static [Claim],
+    /// Cycles from reset in which all covers are reached; 0 where that takes longer than a solver sees.
     pub reach: u32,
+    /// Properties that hold whatever memories and multipliers answer.
+    pub cut: &'static [Property],
+    /// Faults in the block itself, for properties that no wire round it can break.
+    pub faults: &'static [Fault],
+}
+
+/// A part, at widths of its own.
+#[derive(Clone, Copy, Debug)]
+pub struct Part {
+    /// The block that it is of.
+    pub of: &'static str,
+    /// Its widths, in words.
+    pub widths: &'static str,
+    /// Its Verilog.
+    pub emit: fn() -> Result<Emission, EmitError>,
 }
 
 /// Beats that ask, and beats that answer.
 #[derive(Clone, Copy, Debug)]
 pub struct Exchange {
-    /// Whether an accepted beat asks, in Verilog.
+    /// When a request begins, in Verilog.
     pub asks: &'static str,
     /// Whether a taken beat answers.
     pub answers: &'static str,
-    /// Requests that are under way at the most.
-    pub under_way: u32,
-    /// Cycles in which requests are under way and `out_valid` does not stand, at the most; none where their number depends
-    /// on the map.
-    pub silence: Option<u32>,
+}
+
+/// A property that the text asserts.
+#[derive(Clone, Copy, Debug)]
+pub struct Claim {
+    /// Which.
+    pub property: Property,
     /// Cycles from reset that are looked at.
     pub cycles: u32,
-    /// Whether memories and multipliers may answer anything: the handshake does not depend on them.
-    pub cut: bool,
-}
-
-/// Says what the payload has to be.
-#[derive(Clone, Copy, Debug)]
-pub struct Formula {
-    /// Verilog that declares what it needs, and asserts under labels that begin with `equal`.
-    pub text: &'static str,
-    /// What it covers.
+    /// Steps of an induction; none where it does not close.
+    pub induction: Option<u32>,
+    /// What it covers, where that is not everything.
     pub range: &'static str,
-    /// Cycles from reset that are looked at; none to prove it for all time.
-    pub cycles: Option<u32>,
 }
 
-const NONE: Contract = Contract { block: "", exchange: None, formula: None, reach: 16 };
+/// A change of the emitted text that breaks a property.
+#[derive(Clone, Copy, Debug)]
+pub struct Fault {
+    /// The property.
+    pub property: Property,
+    /// The module, without the prefix that all have.
+    pub module: &'static str,
+    /// A piece of its text, and what comes instead.
+    pub change: (&'static str, &'static str),
+}
 
-/// The contracts of all blocks.
-pub const CONTRACTS: [Contract; 10] = [
+const fn induction(property: Property, steps: u32) -> Claim {
+    Claim { property, cycles: steps + 1, induction: Some(steps), range: "" }
+}
+
+const fn bounded(property: Property, cycles: u32, range: &'static str) -> Claim {
+    Claim { property, cycles, induction: None, range }
+}
+
+const fn fault(property: Property, module: &'static str, from: &'static str, to: &'static str) -> Fault {
+    Fault { property, module, change: (from, to) }
+}
+
+const STREAM: &[Claim] = &[induction(Property::Counted, 3), induction(Property::Answered, 3)];
+
+const NONE: Contract = Contract {
+    name: "",
+    part: None,
+    exchange: Some(Exchange { asks: "asked", answers: "1'b1" }),
+    text: "",
+    claims: STREAM,
+    reach: 16,
+    cut: &[Property::Counted, Property::Answered, Property::Room],
+    faults: &[],
+};
+
+const FETCH: Contract = Contract {
+    exchange: Some(Exchange { asks: "asked && in_kind >= 2", answers: "1'b1" }),
+    cut: &[Property::Held, Property::Counted, Property::Answered, Property::Equal, Property::Room],
+    ..NONE
+};
+
+const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
+
+/// All contracts: those of the blocks, then those of parts.
+pub const CONTRACTS: [Contract; 16] = [
     Contract {
-        block: "vertex_adder",
-        exchange: Some(Exchange {
-            asks: "1'b1",
-            answers: "1'b1",
-            under_way: 1,
-            silence: Some(0),
-            cycles: 40,
-            cut: false,
-        }),
-        formula: Some(Formula {
-            text: "
-    // A ripple of full adders, lane by lane, is not how the block says it.
-    localparam BITS = $bits(out_vertex) / 9;
-    reg [$bits(out_vertex)-1:0] x, y;
-    wire [$bits(out_vertex)-1:0] sum;
-    reg known = 0;
-    always @(posedge clock) begin
-        if (reset) known <= 0;
-        else if (asked) begin
-            known <= 1;
-            x <= in_vertex;
-            y <= in_difference;
-        end
-    end
-    genvar lane, bit_;
-    generate for (lane = 0; lane < 9; lane = lane + 1) begin : lanes
-        wire [BITS:0] carry;
-        assign carry[0] = 1'b0;
-        for (bit_ = 0; bit_ < BITS; bit_ = bit_ + 1) begin : bits
-            wire a = x[lane * BITS + bit_];
-            wire b = y[lane * BITS + bit_];
-            assign carry[bit_ + 1] = (a & b) | (carry[bit_] & (a ^ b));
-            assign sum[lane * BITS + bit_] = a ^ b ^ carry[bit_];
-        end
-    end endgenerate
-    always @* if (known && out_valid) equal_sum: assert (out_vertex == sum);
-",
-            range: "all inputs",
-            cycles: None,
-        }),
+        name: "vertex_adder",
+        text: include_str!("contract/vertex_adder.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Equal, 3)],
         reach: 6,
+        cut: &[],
+        ..NONE
     },
-    Contract { block: "remesher", reach: 0, ..NONE },
-    Contract { block: "strip_unit", ..NONE },
-    Contract { block: "mip_build", ..NONE },
     Contract {
-        block: "mip_fetch",
-        exchange: Some(Exchange {
-            asks: "in_kind >= 2",
-            answers: "1'b1",
-            under_way: 22,
-            silence: Some(21),
-            cycles: 31,
-            cut: true,
-        }),
+        name: "remesher",
+        exchange: Some(Exchange { asks: r"\block.queue.in_valid ", answers: "1'b1" }),
+        text: include_str!("contract/remesher.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Room, 3)],
+        reach: 0,
+        faults: &[
+            fault(Property::Answered, "step_queue", "held_d = 1'b1", "held_d = held_q"),
+            fault(Property::Room, "step_queue", "waiting_q < 5'd8", "waiting_q < 5'd15"),
+        ],
+        ..NONE
+    },
+    Contract {
+        name: "strip_unit",
+        exchange: Some(Exchange { asks: r"asked && (\block.first || \block.second || in_last)", answers: "1'b1" }),
+        text: include_str!("contract/strip_unit.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 8), induction(Property::Room, 3)],
+        reach: 26,
+        cut: &[Property::Counted, Property::Answered, Property::Room, Property::Reached],
+        faults: &[
+            fault(Property::Answered, "column_memory", "room_d = used_q < 5'd14", "room_d = 1'b0"),
+            fault(Property::Room, "column_memory", "used_q < 5'd14", "used_q < 5'd16"),
+        ],
+        ..NONE
+    },
+    Contract {
+        name: "mip_build",
+        exchange: Some(Exchange { asks: r"\block.sends ", answers: "1'b1" }),
+        text: include_str!("contract/mip_build.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), bounded(Property::Room, 40, "")],
+        reach: 50,
+        cut: &[Property::Held, Property::Counted, Property::Answered, Property::Room, Property::Reached],
+        faults: &[
+            fault(
+                Property::Answered,
+                "mip_build",
+                "sent_valid_d = spare_valid_q || sends",
+                "sent_valid_d = spare_valid_q",
+            ),
+            fault(Property::Room, "mip_build", "feed_room_q != 4'd0", "feed_room_q != 4'd15"),
+        ],
+        ..NONE
+    },
+    Contract {
+        name: "mip_fetch",
+        text: include_str!("contract/mip_fetch.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Room, 3)],
         reach: 28,
+        faults: &[fault(Property::Room, "mip_fetch", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..FETCH
+    },
+    Contract {
+        name: "sat_build",
+        exchange: Some(Exchange { asks: r"asked && in_kind == 1 && \block.active_q ", answers: "1'b1" }),
+        text: include_str!("contract/sat_build.sv"),
+        faults: &[fault(Property::Answered, "sat_build", "s3_valid_d = s2_valid_q", "s3_valid_d = 1'b0")],
         ..NONE
     },
-    Contract { block: "sat_build", ..NONE },
     Contract {
-        block: "sat_fetch",
-        exchange: Some(Exchange {
-            asks: "in_kind >= 2",
-            answers: "1'b1",
-            under_way: 12,
-            silence: Some(18),
-            cycles: 24,
-            cut: true,
-        }),
+        name: "sat_fetch",
+        text: include_str!("contract/sat_fetch.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Equal, 3)],
         reach: 30,
-        ..NONE
+        ..FETCH
     },
     Contract {
-        block: "sat_fetch_parallel",
-        exchange: Some(Exchange {
-            asks: "in_kind >= 2",
-            answers: "1'b1",
-            under_way: 15,
-            silence: Some(15),
-            cycles: 20,
-            cut: true,
-        }),
-        reach: 24,
-        ..NONE
+        name: "sat_fetch_parallel",
+        text: include_str!("contract/sat_fetch_parallel.sv"),
+        claims: &[
+            induction(Property::Counted, 3),
+            induction(Property::Answered, 3),
+            induction(Property::Equal, 3),
+            induction(Property::Room, 3),
+        ],
+        reach: 26,
+        faults: &[fault(Property::Room, "sat_fetch_parallel", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..FETCH
     },
     Contract {
-        block: "sat_average",
-        exchange: Some(Exchange {
-            asks: "1'b1",
-            answers: "1'b1",
-            under_way: 1,
-            silence: Some(27),
-            cycles: 40,
-            cut: true,
-        }),
-        formula: Some(Formula {
-            text: "
-    reg [9:0] sum;
-    reg [3:0] area;
-    reg known = 0;
-    always @* small_: assume (!in_valid || (in_sum < 256 && in_area >= 1 && in_area < 8));
-    always @(posedge clock) if (asked) begin
-        known <= 1;
-        sum <= in_sum;
-        area <= in_area;
-    end
-    // q is the quotient exactly if area q <= 256 sum + floor(area / 2) < area (q + 1); nothing is divided.
-    wire [31:0] numerator = 256 * sum + area / 2;
-    always @* if (known && out_valid) begin
-        equal_floor: assert (area * out_mean <= numerator);
-        equal_next: assert (numerator < area * (out_mean + 33'd1));
-    end
-",
-            range: "sums below 256, areas 1 to 7",
-            cycles: Some(32),
-        }),
+        name: "sat_average",
+        text: include_str!("contract/sat_average.sv"),
+        claims: &[
+            induction(Property::Counted, 3),
+            induction(Property::Answered, 3),
+            bounded(Property::Equal, 32, "sums below 256, areas 1 to 7"),
+        ],
         reach: 40,
+        ..NONE
     },
     Contract {
-        block: "bisector",
-        exchange: Some(Exchange {
-            asks: "in_kind >= 2",
-            answers: "out_end",
-            under_way: 1,
-            silence: None,
-            cycles: 20,
-            cut: false,
-        }),
-        reach: 24,
+        name: "bisector",
+        exchange: Some(Exchange { asks: "asked && in_kind >= 2", answers: "out_end" }),
+        text: include_str!("contract/bisector.sv"),
+        claims: &[bounded(Property::Counted, 24, ""), induction(Property::Room, 3)],
+        reach: 45,
+        cut: &[Property::Room, Property::Reached],
+        faults: &[fault(Property::Room, "bisector_queue", "!held_q[3] && !held_q[4]", "!held_q[4]")],
         ..NONE
+    },
+    Contract {
+        name: "divider",
+        part: Some(Part {
+            of: "remesher and sat_average",
+            widths: "quotients of 4 bits, remainders of 6",
+            emit: || emit(&Divider::<1, 4, 6>::default()),
+        }),
+        text: include_str!("contract/divider.sv"),
+        claims: &[
+            bounded(Property::Equal, 9, "all numerators and divisors in range"),
+            induction(Property::Answered, 3),
+        ],
+        faults: &[
+            fault(Property::Equal, "divider_1x4_by_6", "minus_y_d = -divisor", "minus_y_d = ~divisor"),
+            fault(Property::Answered, "divider_1x4_by_6", "count_q == 8'd2", "count_q == 8'd1"),
+        ],
+        ..PART
+    },
+    Contract {
+        name: "extrema_memory",
+        part: Some(Part { of: "mip_build", widths: "2 nodes", emit: || emit(&ExtremaMemory::<1>::default()) }),
+        text: include_str!("contract/extrema_memory.sv"),
+        claims: &[bounded(Property::Equal, 13, "all operations, values below 8")],
+        faults: &[fault(Property::Equal, "extrema_memory_1", "same_as_s6 || same_as_s7", "same_as_s6")],
+        ..PART
+    },
+    Contract {
+        name: "edge_setup",
+        part: Some(Part {
+            of: "remesher",
+            widths: "a component of 4 bits, quotients of 7",
+            emit: || emit(&EdgeSetup::<1, 4, 7, 9, 6>::default()),
+        }),
+        text: include_str!("contract/edge_setup.sv"),
+        claims: &[induction(Property::Answered, 18)],
+        reach: 40,
+        faults: &[fault(Property::Answered, "edge_setup", "finished_d = divider_done", "finished_d = 1'b0")],
+        ..PART
+    },
+    Contract {
+        name: "interior_setup",
+        part: Some(Part {
+            of: "remesher",
+            widths: "a component of 28 bits, quotients of 32",
+            emit: || emit(&InteriorSetup::<1, 28, 32, 6, 9, 38>::default()),
+        }),
+        text: include_str!("contract/interior_setup.sv"),
+        claims: &[induction(Property::Answered, 48)],
+        reach: 24,
+        faults: &[fault(Property::Answered, "interior_setup", "finished_d = divider_done", "finished_d = 1'b0")],
+        ..PART
+    },
+    Contract {
+        name: "triangle_setup",
+        part: Some(Part {
+            of: "remesher",
+            widths: "coordinates of 3 bits, a component of 4",
+            emit: || emit(&TriangleSetup::<1, 4, 3, 6, 9>::default()),
+        }),
+        text: include_str!("contract/triangle_setup.sv"),
+        claims: &[induction(Property::Answered, 12)],
+        reach: 40,
+        faults: &[fault(Property::Answered, "triangle_setup", "round_q + 3'd1", "round_q")],
+        ..PART
+    },
+    Contract {
+        name: "sweep",
+        part: Some(Part { of: "remesher", widths: "scalars of 6 bits", emit: || emit(&Sweep::<6>::default()) }),
+        text: include_str!("contract/sweep.sv"),
+        claims: &[induction(Property::Held, 3)],
+        reach: 24,
+        faults: &[fault(Property::Held, "sweep", "out_valid_d = 1'b0", "out_valid_d = out_valid_q")],
+        ..PART
     },
 ];
 
-/// The contract of a block.
-pub fn find(block: &str) -> Option<&'static Contract> {
-    CONTRACTS.iter().find(|contract| contract.block == block)
+/// The contract of a block or a part.
+pub fn find(name: &str) -> Option<&'static Contract> {
+    CONTRACTS.iter().find(|contract| contract.name == name)
 }

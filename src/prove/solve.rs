@@ -7,13 +7,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
+use relief_hdl::verilog::{Direction, Emission};
 use relief_hdl::widths::WidthSet;
-use relief_testbench::binding::Binding;
+use relief_testbench::binding::{BLOCKS, Binding};
 use relief_testbench::check::emission;
 use relief_testbench::cosim::{program, tools};
 
 use super::Property;
-use super::contract::{Contract, find};
+use super::contract::{Claim, Contract, Fault};
 use super::wrapper::{TOP, wrapper};
 use crate::synth::programs::folders;
 
@@ -21,6 +22,8 @@ use crate::synth::programs::folders;
 const LIMIT: Duration = Duration::from_secs(1800);
 /// Steps of an induction: the longest window of an assertion is two cycles.
 const INDUCTION: u32 = 3;
+/// Why a proof has a bound.
+const WHY: &str = "an induction begins in states that cannot be";
 
 /// How a property fared.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -60,7 +63,7 @@ impl Solver {
             found.filter(|answer| answer.status.success()).map(|answer| answer.stdout.trim().to_owned())
         };
         let version = ask("z3").ok_or_else(|| {
-            let install = "python3 -m venv .tools/eda && .tools/eda/bin/pip install z3-solver==5.4.1.0";
+            let install = "python3 -m venv .tools/test && .tools/test/bin/pip install z3-solver==5.4.1.0";
             format!("the program `z3` is missing: install the Debian package z3, or run {install}")
         })?;
         solver.version = version;
@@ -85,27 +88,32 @@ pub struct Proof<'a> {
 }
 
 impl<'a> Proof<'a> {
-    /// Emits a block and has Yosys write its transition relation, one for each property.
+    /// Emits a block or a part, and has Yosys write its transition relation, one for each property.
     ///
     /// # Errors
-    /// A sentence: the block has no contract, or Yosys refuses.
+    /// A sentence: a block cannot be emitted, or Yosys refuses.
     pub fn new(
         solver: &'a Solver,
-        block: &dyn Binding,
+        contract: &'static Contract,
         set: &WidthSet,
         fault: Option<Property>,
     ) -> Result<Proof<'a>, String> {
-        let name = block.name();
-        let contract =
-            find(name).ok_or_else(|| format!("{name} has no contract; src/prove/contract.rs is the place"))?;
-        let emission = emission(block, set).map_err(|error| error.to_string())?;
+        let name = contract.name;
+        let mut emission = match contract.part {
+            Some(part) => (part.emit)().map_err(|error| error.to_string())?,
+            None => emission(block(name)?, set).map_err(|error| error.to_string())?,
+        };
+        for change in contract.faults.iter().filter(|change| Some(change.property) == fault) {
+            change.apply(&mut emission).map_err(|reason| format!("the fault of {name}: {reason}"))?;
+        }
         let folder = tempfile::tempdir().map_err(|error| format!("no temporary folder: {error}"))?;
         emission.write(folder.path()).map_err(|error| error.to_string())?;
-        let text = wrapper(&emission, contract, fault);
+        let text =
+            wrapper(&emission, set, contract, fault).map_err(|reason| format!("the contract of {name}: {reason}"))?;
         fs::write(folder.path().join("proof.sv"), text).map_err(|error| format!("the wrapper of {name}: {error}"))?;
         let sources: Vec<String> = emission.modules.iter().map(|module| format!("{}.sv", module.name)).collect();
         let outputs: Vec<String> = (emission.top_module().ports.iter())
-            .filter(|port| port.direction == relief_hdl::verilog::Direction::Output && port.name != "in_ready")
+            .filter(|port| port.direction == Direction::Output && port.name != "in_ready")
             .map(|port| format!("w:{}", port.name))
             .collect();
         let script = script(contract, &sources, &outputs);
@@ -130,9 +138,12 @@ impl<'a> Proof<'a> {
     /// # Errors
     /// A sentence: the solver cannot run, or takes too long.
     pub fn prove(&self, property: Property, waveform: &Path) -> Result<Verdict, String> {
-        let Contract { exchange, formula, reach, .. } = self.contract;
+        let Contract { claims, part, reach, name, .. } = self.contract;
+        if let Some(claim) = claims.iter().find(|claim| claim.property == property) {
+            return self.claim(claim, waveform);
+        }
         match property {
-            Property::Held => {
+            Property::Held if part.is_none() => {
                 let base = self.solve(property, Some(INDUCTION), false, waveform)?;
                 if let Verdict::Failed(..) = base {
                     return Ok(base);
@@ -142,61 +153,50 @@ impl<'a> Proof<'a> {
                 }
                 if *reach == 0 {
                     let what = "induction does not close, and the first beat comes later than a solver sees";
-                    return Err(format!("`held` of {}: {what}", self.contract.block));
+                    return Err(format!("`held` of {name}: {what}"));
                 }
                 // Further from reset, then.
                 let cycles = (*reach).max(INDUCTION);
                 let found = self.solve(property, Some(cycles), false, waveform)?;
-                let why = "an induction begins in states that cannot be";
                 Ok(if found == passed() {
-                    Verdict::Bounded(format!("{cycles} cycles from reset; {why}"))
+                    Verdict::Bounded(format!("{cycles} cycles from reset; {WHY}"))
                 } else {
                     found
                 })
             }
-            Property::Free if self.follows.is_empty() => Ok(Verdict::Proved("no path in the netlist".into())),
-            Property::Free => Ok(Verdict::Failed(format!("a path to {}", self.follows.join(", ")), None)),
-            Property::Counted | Property::Answered => {
-                let Some(exchange) = exchange else {
-                    return Ok(Verdict::Nothing("a beat has no fixed number of answers; the tests count them"));
-                };
-                if property == Property::Answered && exchange.silence.is_none() {
-                    return Ok(Verdict::Nothing("the map says how long it takes; the tests bound it"));
-                }
-                let verdict = self.solve(property, Some(exchange.cycles), false, waveform)?;
-                let why = "an induction begins in states that cannot be";
-                Ok(if verdict == passed() {
-                    Verdict::Bounded(format!("{} cycles from reset; {why}", exchange.cycles))
-                } else {
-                    verdict
-                })
-            }
-            Property::Equal => {
-                let Some(formula) = formula else {
-                    return Ok(Verdict::Nothing("the golden model says it; the tests compare"));
-                };
-                let steps = formula.cycles.unwrap_or(INDUCTION);
-                let verdict = self.solve(property, Some(steps), false, waveform)?;
-                if verdict != passed() {
-                    return Ok(verdict);
-                }
-                if formula.cycles.is_some() {
-                    return Ok(Verdict::Bounded(format!("{}, {steps} cycles from reset", formula.range)));
-                }
-                match self.solve(property, Some(INDUCTION), true, waveform)? {
-                    Verdict::Failed(..) => Ok(Verdict::Bounded(format!("{steps} cycles; induction does not close"))),
-                    _ => Ok(Verdict::Proved(format!("{}, induction over {INDUCTION} cycles", formula.range))),
-                }
-            }
-            Property::Reached if *reach == 0 => {
-                Ok(Verdict::Nothing("its first beat comes after a set-up longer than a solver sees; the tests see it"))
-            }
+            Property::Free if part.is_none() => Ok(if self.follows.is_empty() {
+                Verdict::Proved("no path in the netlist".into())
+            } else {
+                Verdict::Failed(format!("a path to {}", self.follows.join(", ")), None)
+            }),
+            Property::Held | Property::Free => Ok(Verdict::Nothing("a part has no stream")),
+            Property::Counted => Ok(Verdict::Nothing("it has no requests and answers")),
+            Property::Answered => Ok(Verdict::Nothing("the data say how long it takes; the tests bound it")),
+            Property::Equal => Ok(Verdict::Nothing("the golden model says it; the tests compare")),
+            Property::Room => Ok(Verdict::Nothing("nothing in it can overflow")),
+            Property::Reached if *reach == 0 => Ok(Verdict::Nothing(
+                "its first beat comes after a set-up longer than a solver sees; its parts are covered",
+            )),
             Property::Reached => Ok(match self.solve(property, None, false, waveform)? {
-                Verdict::Failed(..) => {
-                    Verdict::Failed(format!("no beat that waited is taken within {reach} cycles"), None)
-                }
+                Verdict::Failed(what, _) => Verdict::Failed(format!("not reached within {reach} cycles: {what}"), None),
                 _ => Verdict::Proved(format!("within {reach} cycles from reset")),
             }),
+        }
+    }
+
+    /// What the text of the contract asserts: first from reset, then by induction where that closes.
+    fn claim(&self, claim: &Claim, waveform: &Path) -> Result<Verdict, String> {
+        let Claim { property, cycles, induction, range } = *claim;
+        let of = if range.is_empty() { String::new() } else { format!("{range}; ") };
+        let from_reset = self.solve(property, Some(cycles), false, waveform)?;
+        if from_reset != passed() {
+            return Ok(from_reset);
+        }
+        match induction {
+            Some(steps) if self.solve(property, Some(steps), true, waveform)? == passed() => {
+                Ok(Verdict::Proved(format!("{of}induction over {steps} cycles")))
+            }
+            _ => Ok(Verdict::Bounded(format!("{of}{cycles} cycles from reset; {WHY}"))),
         }
     }
 
@@ -217,7 +217,7 @@ impl<'a> Proof<'a> {
             command.arg("-c");
         }
         command.args(["--dump-vcd", "trace.vcd", &format!("{}.smt2", property.name())]).current_dir(self.folder.path());
-        let what = format!("proving `{}` of {}", property.name(), self.contract.block);
+        let what = format!("proving `{}` of {}", property.name(), self.contract.name);
         let finished = program::run(&mut command, &what, LIMIT).map_err(|error| error.to_string())?;
         let text = format!("{}\n{}", finished.stdout, finished.stderr);
         if text.contains("Status: PASSED") {
@@ -227,8 +227,11 @@ impl<'a> Proof<'a> {
             let reason = text.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it says nothing");
             return Err(format!("{what}: yosys-smtbmc ends without a verdict: {}", reason.trim()));
         }
-        let assertion = text.lines().find_map(|line| line.split_once("Assert failed in ").map(|(_, rest)| rest.trim()));
-        let assertion = assertion.map_or(property.name(), |rest| rest.split(": ").nth(1).unwrap_or(rest)).to_owned();
+        let last = |line: &str| line.rsplit(": ").next().unwrap_or(line).trim().to_owned();
+        let unreached = text.lines().filter_map(|line| line.split_once("Unreached cover statement at "));
+        let unreached: Vec<String> = unreached.map(|(_, rest)| last(rest.trim_end_matches('.'))).collect();
+        let assertion = text.lines().find_map(|line| line.split_once("Assert failed in ").map(|(_, rest)| last(rest)));
+        let assertion = assertion.unwrap_or_else(|| unreached.join(", "));
         // An induction's trace begins in a state that may never be.
         let trace = self.folder.path().join("trace.vcd");
         let kept = !induction && trace.is_file() && {
@@ -236,6 +239,24 @@ impl<'a> Proof<'a> {
             made && fs::copy(&trace, waveform).is_ok()
         };
         Ok(Verdict::Failed(assertion, kept.then(|| waveform.to_owned())))
+    }
+}
+
+/// The block of a name.
+fn block(name: &str) -> Result<&'static dyn Binding, String> {
+    BLOCKS.iter().copied().find(|block| block.name() == name).ok_or_else(|| format!("there is no block `{name}`"))
+}
+
+impl Fault {
+    /// Changes the text of a module.
+    fn apply(&self, emission: &mut Emission) -> Result<(), String> {
+        let (from, to) = self.change;
+        let name = format!("relief_{}", self.module);
+        let module = emission.modules.iter_mut().find(|module| module.name == name);
+        let module = module.filter(|module| module.source.contains(from));
+        let module = module.ok_or_else(|| format!("there is no `{from}` in the module {name}"))?;
+        module.source = module.source.replace(from, to);
+        Ok(())
     }
 }
 
@@ -259,22 +280,18 @@ fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String
     );
     text +=
         "memory_dff\nmemory_collect\nmemory_nordff\nopt_clean\nasync2sync\ndffunmap\nopt_clean\ndesign -save base\n";
-    let cuts = contract.exchange.is_some_and(|exchange| exchange.cut);
     for property in Property::ALL {
         let name = property.name();
+        let claimed = contract.claims.iter().any(|claim| claim.property == property);
+        // Assumptions are of one property, or hold always.
         let kept = match property {
-            Property::Free => continue,
-            Property::Counted | Property::Answered if contract.exchange.is_none() => continue,
-            Property::Equal if contract.formula.is_none() => continue,
-            Property::Reached => "delete t:$assert t:$assume\n".to_owned(),
-            Property::Equal => format!("delete t:$assert c:{name}* %d\ndelete t:$cover\n"),
-            _ => format!("delete t:$assert c:{name}* %d\ndelete t:$cover t:$assume\n"),
+            Property::Reached => "delete t:$assert\ndelete t:$assume c:always* %d\n".to_owned(),
+            _ if claimed || (property == Property::Held && contract.part.is_none()) => {
+                format!("delete t:$assert c:{name}* %d\ndelete t:$cover\ndelete t:$assume c:{name}* %d c:always* %d\n")
+            }
+            _ => continue,
         };
-        let cut = if cuts && matches!(property, Property::Counted | Property::Answered) {
-            "cutpoint t:$mul t:$mem t:$mem_v2\n"
-        } else {
-            ""
-        };
+        let cut = if contract.cut.contains(&property) { "cutpoint t:$mul t:$mem t:$mem_v2\n" } else { "" };
         text += &format!("{kept}{cut}opt_clean\nwrite_smt2 -wires {name}.smt2\ndesign -load base\n");
     }
     text

@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use relief_testbench::cosim::program;
 
-/// Where `requirements-eda.txt` is installed, in the current folder or one above it.
-const TOOLS: &str = ".tools/eda/bin";
+/// Where `requirements-eda.txt` and `requirements-test.txt` are installed, in the current folder or one above it.
+const TOOLS: [&str; 2] = [".tools/eda/bin", ".tools/test/bin"];
 
 /// The commands that install it.
 pub const INSTALL: &str =
@@ -52,7 +52,8 @@ pub fn nextpnr(name: &str) -> Result<Program, String> {
 /// The folders of tools, the nearest first.
 pub fn folders() -> Vec<PathBuf> {
     let here = env::current_dir().unwrap_or_default();
-    here.ancestors().map(|folder| folder.join(TOOLS)).filter(|folder| folder.is_dir()).collect()
+    let all = here.ancestors().flat_map(|folder| TOOLS.map(|tools| folder.join(tools)));
+    all.filter(|folder| folder.is_dir()).collect()
 }
 
 fn local(name: &str) -> Option<PathBuf> {
