@@ -12,8 +12,8 @@
 //! The block RAMs lie far apart, so nothing holds them, and what goes to all of them comes from registers.
 //!
 //! | stage      | what becomes of an op
-//! | s1_address | the node is addressed
-//! | s2_read    | the block RAM answers; are the ops in s3 to s7 of the same node?
+//! | s1_address | the node is addressed; are the ops in s5 and s6 of the same one?
+//! | s2_read    | the block RAM answers; are the ops in s3 to s5?
 //! | s3_word    | its word comes, from whichever block RAM
 //! | s4_choose  | or what the ops two to five before have made of the node, the last one first
 //! | s5_compare | the extrema are compared with that, or with what the op before has made of it
@@ -53,6 +53,9 @@ pub struct ExtremaMemory<const A: usize> {
     s2_address: DataRegister<U<A>>,
     s2_max: DataRegister<U<16>>,
     s2_min: DataRegister<U<16>>,
+    /// The fourth op before is of the same node, or the fifth.
+    s2_fourth: DataRegister<Bit>,
+    s2_fifth: DataRegister<Bit>,
     s3_op: Register<Bit>,
     s3_fresh: DataRegister<Bit>,
     s3_address: DataRegister<U<A>>,
@@ -84,13 +87,9 @@ pub struct ExtremaMemory<const A: usize> {
     s6_op: Register<Bit>,
     s6_address: DataRegister<U<A>>,
     s6_word: DataRegister<U<32>>,
-    s7_op: Register<Bit>,
-    s7_address: DataRegister<U<A>>,
     s7_word: DataRegister<U<32>>,
     word_behind: Wire<U<32>>,
     new_word: Wire<U<32>>,
-    same_as_s6: Wire<Bit>,
-    same_as_s7: Wire<Bit>,
     old: Wire<U<32>>,
     old_max: Wire<U<16>>,
     old_min: Wire<U<16>>,
@@ -107,7 +106,7 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
         dff_setup!(self, clock, s3_max, s3_min, s3_follows, s3_second, s3_third, s3_repeats, s3_kept, s4_op, s4_fresh);
         dff_setup!(self, clock, s4_address, s4_max, s4_min, s4_follows, s4_second, s4_repeats, s4_kept, s4_word);
         dff_setup!(self, clock, s5_op, s5_fresh, s5_address, s5_max, s5_min, s5_follows, s5_word, s6_op, s6_address);
-        dff_setup!(self, clock, s6_word, s7_op, s7_address, s7_word);
+        dff_setup!(self, clock, s6_word, s7_word, s2_fourth, s2_fifth);
         // An op in s5 is written before the first read gets there.
         self.busy.next = self.s1_op.q.val() || self.s2_op.q.val() || self.s3_op.q.val() || self.s4_op.q.val();
         self.ram.enable.next = true;
@@ -140,6 +139,8 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
         self.s2_address.d.next = self.s1_address.q.val();
         self.s2_max.d.next = self.s1_max.q.val();
         self.s2_min.d.next = self.s1_min.q.val();
+        self.s2_fourth.d.next = self.s5_op.q.val() && self.s5_address.q.val() == self.s1_address.q.val();
+        self.s2_fifth.d.next = self.s6_op.q.val() && self.s6_address.q.val() == self.s1_address.q.val();
         // s3_word
         self.s3_op.d.next = self.s2_op.q.val();
         self.s3_fresh.d.next = self.s2_fresh.q.val();
@@ -149,11 +150,9 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
         self.s3_follows.d.next = self.s3_op.q.val() && self.s3_address.q.val() == self.s2_address.q.val();
         self.s3_second.d.next = self.s4_op.q.val() && self.s4_address.q.val() == self.s2_address.q.val();
         self.s3_third.d.next = self.s5_op.q.val() && self.s5_address.q.val() == self.s2_address.q.val();
-        self.same_as_s6.next = self.s6_op.q.val() && self.s6_address.q.val() == self.s2_address.q.val();
-        self.same_as_s7.next = self.s7_op.q.val() && self.s7_address.q.val() == self.s2_address.q.val();
-        self.s3_repeats.d.next = self.same_as_s6.val() || self.same_as_s7.val();
+        self.s3_repeats.d.next = self.s2_fourth.q.val() || self.s2_fifth.q.val();
         self.s3_kept.d.next = self.s7_word.q.val();
-        if self.same_as_s6.val() {
+        if self.s2_fourth.q.val() {
             self.s3_kept.d.next = self.s6_word.q.val();
         }
         // s4_choose
@@ -209,8 +208,6 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
         self.ram.write_enable.next = self.s5_op.q.val();
         self.ram.write_address.next = self.s5_address.q.val();
         self.ram.write_data.next = self.new_word.val();
-        self.s7_op.d.next = self.s6_op.q.val();
-        self.s7_address.d.next = self.s6_address.q.val();
         self.s7_word.d.next = self.s6_word.q.val();
     }
 
@@ -219,4 +216,4 @@ impl<const A: usize> Logic for ExtremaMemory<A> {
     }
 }
 
-latches! { [const A: usize] ExtremaMemory<A>: ram, read_at, s1_read, s2_read, s3_read, s4_read, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max, s3_min, s3_follows, s3_second, s3_third, s3_repeats, s3_kept, s4_op, s4_fresh, s4_address, s4_max, s4_min, s4_follows, s4_second, s4_repeats, s4_kept, s4_word, s5_op, s5_fresh, s5_address, s5_max, s5_min, s5_follows, s5_word, s6_op, s6_address, s6_word, s7_op, s7_address, s7_word }
+latches! { [const A: usize] ExtremaMemory<A>: ram, read_at, s1_read, s2_read, s3_read, s4_read, s1_op, s1_fresh, s1_address, s1_max, s1_min, s2_op, s2_fresh, s2_address, s2_max, s2_min, s3_op, s3_fresh, s3_address, s3_max, s3_min, s3_follows, s3_second, s3_third, s3_repeats, s3_kept, s4_op, s4_fresh, s4_address, s4_max, s4_min, s4_follows, s4_second, s4_repeats, s4_kept, s4_word, s5_op, s5_fresh, s5_address, s5_max, s5_min, s5_follows, s5_word, s6_op, s6_address, s6_word, s7_word, s2_fourth, s2_fifth }

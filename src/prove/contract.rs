@@ -241,7 +241,7 @@ pub const CONTRACTS: [Contract; 16] = [
         part: Some(Part { of: "mip_build", widths: "2 nodes", emit: || emit(&ExtremaMemory::<1>::default()) }),
         text: include_str!("contract/extrema_memory.sv"),
         claims: &[bounded(Property::Equal, 13, "all operations, values below 8")],
-        faults: &[fault(Property::Equal, "extrema_memory_1", "same_as_s6 || same_as_s7", "same_as_s6")],
+        faults: &[fault(Property::Equal, "extrema_memory_1", "s2_fourth_q || s2_fifth_q", "s2_fourth_q")],
         ..PART
     },
     Contract {
