@@ -88,11 +88,20 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     height: DataRegister<U<M>>,
     width_last: DataRegister<U<M>>,
     height_last: DataRegister<U<M>>,
+    // One less than these, and than the first row of the lower pole, unless that is row 0; a cycle later.
+    width_second: DataRegister<U<M>>,
+    height_second: DataRegister<U<M>>,
+    lower_before: DataRegister<U<M>>,
+    lower_none: DataRegister<Bit>,
     column: DataRegister<U<M>>,
     row: DataRegister<U<M>>,
     /// The row is of the upper pole, or of the lower one: decided with the row, for what is sent waits for it.
     in_upper: Register<Bit>,
     in_lower: Register<Bit>,
+    /// So are these: the column and the row are the last ones, and the level is not the map.
+    last_column: Register<Bit>,
+    last_row: Register<Bit>,
+    above_map: Register<Bit>,
     // The map.
     levels: DataRegister<U<4>>,
     repeat_u: DataRegister<Bit>,
@@ -112,6 +121,8 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     feed_out: Register<U<3>>,
     feed_valid: Register<Bit>,
     feed_room: Register<U<4>>,
+    /// There is some.
+    feed_free: Register<Bit>,
     // The node that is sent, and the next one where it waits: so that `out_ready` is asked for no further back.
     sent_valid: Register<Bit>,
     sent_level: DataRegister<U<4>>,
@@ -144,8 +155,6 @@ pub struct MipBuild<const M: usize, const A: usize, const B: usize> {
     word: Wire<U<32>>,
     texel_max: Wire<U<16>>,
     texel_min: Wire<U<16>>,
-    last_column: Wire<Bit>,
-    last_row: Wire<Bit>,
     none: Wire<U<M>>,
     ones: Wire<U<M>>,
     kept: Wire<U<M>>,
@@ -173,7 +182,12 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, area, fold, poles, odd_levels, even_levels, feed);
-        dff_setup!(self, clock, feed_in, feed_out, feed_valid, feed_room, in_upper, in_lower);
+        dff_setup!(self, clock, feed_in, feed_out, feed_valid, feed_room, in_upper, in_lower, last_column, last_row);
+        dff_setup!(self, clock, above_map, feed_free, width_second, height_second, lower_before, lower_none);
+        self.width_second.d.next = self.width_last.q.val() - 1;
+        self.height_second.d.next = self.height_last.q.val() - 1;
+        self.lower_before.d.next = self.poles.map_last.val() - 1;
+        self.lower_none.d.next = self.poles.map_last.val() == 0;
         dff_setup!(self, clock, state, failed, level, width, height, column, row, levels, repeat_u, repeat_v, cells);
         dff_setup!(self, clock, has_poles, width_last, height_last, width_above, height_above, folds, sides_fit);
         dff_setup!(self, clock, nodes_fit, measured, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min);
@@ -232,7 +246,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             && (self.levels.q.val() == 1 || self.nodes_fit.q.val());
 
         self.running.next = self.state.q.val() == MipBuildState::Run;
-        self.on_map.next = self.level.q.val() == 0;
+        self.on_map.next = !self.above_map.q.val();
         self.on_odd.next = self.level.q.val().get_bit(0);
         self.texel.next = self.in_valid.val() && self.in_kind.val() == 1;
         self.out_free.next = !self.spare_valid.q.val() && (!self.sent_valid.q.val() || self.out_ready.val());
@@ -248,17 +262,15 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.texel_max.next = self.in_value.val();
             self.texel_min.next = self.in_value.val();
         }
-        self.last_column.next = self.column.q.val() == self.width_last.q.val();
-        self.last_row.next = self.row.q.val() == self.height_last.q.val();
         self.fold.valid.next = self.offered.val() && self.folds.q.val();
         self.fold.max.next = self.texel_max.val();
         self.fold.min.next = self.texel_min.val();
         self.fold.column.next = self.column.q.val();
         self.fold.first_column.next = self.column.q.val() == 0;
-        self.fold.last_column.next = self.last_column.val();
+        self.fold.last_column.next = self.last_column.q.val();
         self.fold.odd_row.next = self.row.q.val().get_bit(0);
         self.fold.first_row.next = self.row.q.val() == 0;
-        self.fold.last_row.next = self.last_row.val();
+        self.fold.last_row.next = self.last_row.q.val();
         self.fold.cells.next = self.cells.q.val();
         self.fold.repeat_u.next = self.repeat_u.q.val();
         self.fold.repeat_v.next = self.repeat_v.q.val();
@@ -280,7 +292,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         self.odd_levels.address.next = self.fold.op_address.val();
         self.odd_levels.max.next = self.fold.op_max.val();
         self.odd_levels.min.next = self.fold.op_min.val();
-        self.reads.next = self.running.val() && !self.on_map.val() && self.feed_room.q.val() != 0;
+        self.reads.next = self.running.val() && !self.on_map.val() && self.feed_free.q.val();
         self.odd_levels.read.next = self.reads.val() && self.on_odd.val();
         self.even_levels.op.next = self.fold.op.val() && self.on_odd.val();
         self.even_levels.fresh.next = self.fold.op_fresh.val();
@@ -309,8 +321,10 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
         }
         if self.reads.val() && !self.take.val() {
             self.feed_room.d.next = self.feed_room.q.val() - 1;
+            self.feed_free.d.next = self.feed_room.q.val() != 1;
         } else if self.take.val() && !self.reads.val() {
             self.feed_room.d.next = self.feed_room.q.val() + 1;
+            self.feed_free.d.next = true;
         }
 
         self.advance.next = self.state.q.val() == MipBuildState::Flush
@@ -325,6 +339,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.feed_out.d.next = 0.into();
             self.feed_valid.d.next = false;
             self.feed_room.d.next = 8.into();
+            self.feed_free.d.next = true;
         }
         self.fold.clear.next = self.size.val() || self.advance.val();
         self.sends_poles.next =
@@ -354,20 +369,25 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             }
         } else if self.take.val() || self.sends_poles.val() {
             self.column.d.next = self.column.q.val() + 1;
-            if self.last_column.val() {
+            self.last_column.d.next = self.column.q.val() == self.width_second.q.val();
+            if self.last_column.q.val() {
                 self.column.d.next = 0.into();
+                self.last_column.d.next = self.width_last.q.val() == 0;
                 self.row.d.next = self.row.q.val() + 1;
+                self.last_row.d.next = self.row.q.val() == self.height_second.q.val();
                 self.in_upper.d.next = false;
-                self.in_lower.d.next = self.row.q.val() + 1 >= self.poles.map_last.val();
+                self.in_lower.d.next = self.lower_none.q.val() || self.row.q.val() >= self.lower_before.q.val();
                 if self.sends_poles.val() {
                     self.row.d.next = self.poles.map_last.val();
                     self.in_upper.d.next = self.poles.map_last.val() == 0;
                     self.in_lower.d.next = true;
+                    self.last_row.d.next = true;
                 }
-                if self.last_row.val() {
+                if self.last_row.q.val() {
                     self.row.d.next = 0.into();
                     self.in_upper.d.next = true;
                     self.in_lower.d.next = self.poles.map_last.val() == 0;
+                    self.last_row.d.next = self.height_last.q.val() == 0;
                     self.state.d.next = MipBuildState::Idle;
                     if self.folds.q.val() {
                         self.state.d.next = MipBuildState::Flush;
@@ -388,6 +408,9 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.row.d.next = 0.into();
             self.in_upper.d.next = true;
             self.in_lower.d.next = (self.poles.map_last.val() >> 1) == 0;
+            self.last_column.d.next = self.width_above.q.val() == 1;
+            self.last_row.d.next = self.height_above.q.val() == 1;
+            self.above_map.d.next = true;
         }
         if self.size.val() {
             self.state.d.next = MipBuildState::Measure;
@@ -401,6 +424,9 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.row.d.next = 0.into();
             self.in_upper.d.next = true;
             self.in_lower.d.next = self.in_height.val() == 1;
+            self.last_column.d.next = self.in_width.val() == 1;
+            self.last_row.d.next = self.in_height.val() == 1;
+            self.above_map.d.next = false;
             self.levels.d.next = self.in_levels.val();
             self.repeat_u.d.next = self.in_repeat_u.val();
             self.repeat_v.d.next = self.in_repeat_v.val();
@@ -422,7 +448,7 @@ impl<const M: usize, const A: usize, const B: usize> Logic for MipBuild<M, A, B>
             self.send_max.next = self.poles.pole_max.val();
             self.send_min.next = self.poles.pole_min.val();
         }
-        self.send_last.next = self.last_column.val() && self.last_row.val() && !self.folds.q.val();
+        self.send_last.next = self.last_column.q.val() && self.last_row.q.val() && !self.folds.q.val();
         if !self.sent_valid.q.val() || self.out_ready.val() {
             self.sent_valid.d.next = self.spare_valid.q.val() || self.sends.val();
             self.spare_valid.d.next = false;
@@ -463,6 +489,6 @@ ports! {
         inputs: in_valid, in_kind, in_width, in_height, in_repeat_u, in_repeat_v, in_cell, in_poles, in_levels, in_value, out_ready;
         outputs: in_ready, out_valid, out_level, out_i, out_j, out_max, out_min, out_last, error;
         blocks: fold, poles, odd_levels, even_levels;
-        state: state, failed, level, width, height, width_last, height_last, column, row, levels, repeat_u, repeat_v, cells, has_poles, in_upper, in_lower, width_above, height_above, folds, sides_fit, nodes_fit, measured, feed, feed_in, feed_out, feed_valid, feed_room, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, spare_valid, spare_level, spare_i, spare_j, spare_max, spare_min, spare_last, area, fold, poles, odd_levels, even_levels
+        state: state, failed, level, width, height, width_last, height_last, column, row, levels, repeat_u, repeat_v, cells, has_poles, in_upper, in_lower, last_column, last_row, above_map, width_second, height_second, lower_before, lower_none, width_above, height_above, folds, sides_fit, nodes_fit, measured, feed, feed_in, feed_out, feed_valid, feed_room, feed_free, sent_valid, sent_level, sent_i, sent_j, sent_max, sent_min, sent_last, spare_valid, spare_level, spare_i, spare_j, spare_max, spare_min, spare_last, area, fold, poles, odd_levels, even_levels
     }
 }

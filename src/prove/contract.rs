@@ -148,7 +148,7 @@ pub const CONTRACTS: [Contract; 16] = [
         name: "mip_build",
         exchange: Some(Exchange { asks: r"\block.sends ", answers: "1'b1" }),
         text: include_str!("contract/mip_build.sv"),
-        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), bounded(Property::Room, 40, "")],
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), bounded(Property::Room, 30, "")],
         reach: 50,
         cut: &[Property::Held, Property::Counted, Property::Answered, Property::Room, Property::Reached],
         faults: &[
@@ -158,7 +158,7 @@ pub const CONTRACTS: [Contract; 16] = [
                 "sent_valid_d = spare_valid_q || sends",
                 "sent_valid_d = spare_valid_q",
             ),
-            fault(Property::Room, "mip_build", "feed_room_q != 4'd0", "feed_room_q != 4'd15"),
+            fault(Property::Room, "mip_build", "feed_free_d = feed_room_q != 4'd1", "feed_free_d = 1'b1"),
         ],
         ..NONE
     },
