@@ -21,7 +21,7 @@ pub mod widths;
 
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
 pub mod prelude {
-    pub use crate::primitives::{DataRegister, Multiplier, Ram, Register, RegisteredRam, Rom};
+    pub use crate::primitives::{DataRegister, Multiplier, Ram, Register, RegisteredRam, Rom, TwoPortRam};
     pub use crate::signal::{
         ClockReset, Gated, Input, Lanes, Latch, Output, S, Scalar, U, WideS, WideU, Wire, bit_cast_to,
     };

@@ -9,12 +9,14 @@ mod memory;
 mod multiplier;
 mod register;
 mod registered_ram;
+mod two_port_ram;
 
 pub use divider::Divider;
 pub use memory::{Ram, Rom};
 pub use multiplier::Multiplier;
 pub use register::{DataRegister, Register};
 pub use registered_ram::RegisteredRam;
+pub use two_port_ram::TwoPortRam;
 
 /// First line of the text of a [`Verilog::Custom`](rust_hdl_core::ast::Verilog) that is pasted into its parent.
 pub const INLINE: &str = "//inline\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sum of a rectangle from four copies of a summed-area table, one result a cycle (Crow 1984).
+//! The sum of a rectangle from two copies of a summed-area table, one result a cycle (Crow 1984).
 //!
 //! The formula, the beats and the errors are those of [`crate::sat_fetch`]. Four parity banks would not do: the corners
 //! of a rectangle of even size have one parity.
@@ -21,7 +21,7 @@
 use crate::prelude::*;
 use crate::sat_fetch::SatCorners;
 
-/// Fetch from maps with sides of `M` bits, M <= 13, in four times 2^T sums of `B` bits, T <= 27; `X` = M + 2, `R` = 2 M.
+/// Fetch from maps with sides of `M` bits, M <= 13, in twice 2^T sums of `B` bits, T <= 27; `X` = M + 2, `R` = 2 M.
 #[derive(Clone, Debug, LogicBlock)]
 #[allow(missing_docs)]
 pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, const T: usize, const B: usize> {
@@ -47,14 +47,15 @@ pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, cons
     s11_word_1: DataRegister<U<T>>,
     s11_word_2: DataRegister<U<T>>,
     s11_word_3: DataRegister<U<T>>,
+    s11_store: Register<Bit>,
+    s11_value: DataRegister<U<B>>,
     s11_sends: Register<Bit>,
     s11_zero: DataRegister<U<4>>,
     s11_area: DataRegister<U<R>>,
     s11_fails: Register<Bit>,
-    s13_table_0: RegisteredRam<U<B>, T, true>,
-    s13_table_1: RegisteredRam<U<B>, T, true>,
-    s13_table_2: RegisteredRam<U<B>, T, true>,
-    s13_table_3: RegisteredRam<U<B>, T, true>,
+    /// Two corners of each rectangle come from each copy.
+    s13_behind: TwoPortRam<U<B>, T>,
+    s13_first: TwoPortRam<U<B>, T>,
     s12_sends: Register<Bit>,
     s12_zero: DataRegister<U<4>>,
     s12_area: DataRegister<U<R>>,
@@ -93,7 +94,7 @@ pub struct SatFetchParallel<const M: usize, const X: usize, const R: usize, cons
     spare_area: DataRegister<U<R>>,
     spare_failed: DataRegister<Bit>,
     go: Wire<Bit>,
-    stores: Wire<Bit>,
+    zero: Wire<U<4>>,
     arrives: Wire<Bit>,
     out_free: Wire<Bit>,
     spare_behind: Wire<Bit>,
@@ -130,14 +131,14 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
             s11_word_1: DataRegister::default(),
             s11_word_2: DataRegister::default(),
             s11_word_3: DataRegister::default(),
+            s11_store: Register::default(),
+            s11_value: DataRegister::default(),
             s11_sends: Register::default(),
             s11_zero: DataRegister::default(),
             s11_area: DataRegister::default(),
             s11_fails: Register::default(),
-            s13_table_0: RegisteredRam::default(),
-            s13_table_1: RegisteredRam::default(),
-            s13_table_2: RegisteredRam::default(),
-            s13_table_3: RegisteredRam::default(),
+            s13_behind: TwoPortRam::default(),
+            s13_first: TwoPortRam::default(),
             s12_sends: Register::default(),
             s12_zero: DataRegister::default(),
             s12_area: DataRegister::default(),
@@ -173,7 +174,7 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
             spare_area: DataRegister::default(),
             spare_failed: DataRegister::default(),
             go: Wire::default(),
-            stores: Wire::default(),
+            zero: Wire::default(),
             arrives: Wire::default(),
             out_free: Wire::default(),
             spare_behind: Wire::default(),
@@ -195,7 +196,8 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
 {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, corners, s13_table_0, s13_table_1, s13_table_2, s13_table_3);
+        clock!(self, clock, corners, s13_behind, s13_first);
+        dff_setup!(self, clock, s11_store, s11_value);
         dff_setup!(
             self, clock, s11_word_0, s11_word_1, s11_word_2, s11_word_3, s11_sends, s11_zero, s11_area, s11_fails
         );
@@ -238,42 +240,38 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
         self.corners.rows.next = self.in_b.val();
         self.corners.value.next = self.in_sum.val();
 
-        // s12_table: every copy takes every load, a register later, as it moves on: a fetch before it may still have to read.
-        // The fetch behind it reads when it is stored: words take a register, too.
-        self.stores.next = self.go.val() && self.corners.load.val();
-        self.s13_table_0.enable.next = self.reads.q.val();
-        self.s13_table_0.output_enable.next = self.reads.q.val();
-        self.s13_table_0.read_address.next = self.s11_word_0.q.val();
-        self.s13_table_0.write_enable.next = self.stores.val();
-        self.s13_table_0.write_address.next = self.corners.word_0.val();
-        self.s13_table_0.write_data.next = self.corners.load_value.val();
-        self.s13_table_1.enable.next = self.reads.q.val();
-        self.s13_table_1.output_enable.next = self.reads.q.val();
-        self.s13_table_1.read_address.next = self.s11_word_1.q.val();
-        self.s13_table_1.write_enable.next = self.stores.val();
-        self.s13_table_1.write_address.next = self.corners.word_0.val();
-        self.s13_table_1.write_data.next = self.corners.load_value.val();
-        self.s13_table_2.enable.next = self.reads.q.val();
-        self.s13_table_2.output_enable.next = self.reads.q.val();
-        self.s13_table_2.read_address.next = self.s11_word_2.q.val();
-        self.s13_table_2.write_enable.next = self.stores.val();
-        self.s13_table_2.write_address.next = self.corners.word_0.val();
-        self.s13_table_2.write_data.next = self.corners.load_value.val();
-        self.s13_table_3.enable.next = self.reads.q.val();
-        self.s13_table_3.output_enable.next = self.reads.q.val();
-        self.s13_table_3.read_address.next = self.s11_word_3.q.val();
-        self.s13_table_3.write_enable.next = self.stores.val();
-        self.s13_table_3.write_address.next = self.corners.word_0.val();
-        self.s13_table_3.write_data.next = self.corners.load_value.val();
+        // s12_table: two words each, or a load into both.
+        self.s13_behind.enable.next = self.reads.q.val();
+        self.s13_behind.output_enable.next = self.reads.q.val();
+        self.s13_behind.write_enable.next = self.s11_store.q.val();
+        self.s13_behind.address.next = self.s11_word_0.q.val();
+        self.s13_behind.write_data.next = self.s11_value.q.val();
+        self.s13_behind.second_address.next = self.s11_word_1.q.val();
+        self.s13_first.enable.next = self.reads.q.val();
+        self.s13_first.output_enable.next = self.reads.q.val();
+        self.s13_first.write_enable.next = self.s11_store.q.val();
+        self.s13_first.address.next = self.s11_word_2.q.val();
+        self.s13_first.write_data.next = self.s11_value.q.val();
+        self.s13_first.second_address.next = self.s11_word_3.q.val();
 
+        // s11_word. What is read beside a store means nothing.
+        self.zero.next = self.corners.zero.val();
+        if self.corners.load.val() {
+            self.zero.next = 15.into();
+        }
         // s13_table: its own registers.
         if self.go.val() {
+            self.s11_store.d.next = self.corners.load.val();
+            self.s11_value.d.next = self.corners.load_value.val();
             self.s11_word_0.d.next = self.corners.word_0.val();
             self.s11_word_1.d.next = self.corners.word_1.val();
             self.s11_word_2.d.next = self.corners.word_2.val();
+            if self.corners.load.val() {
+                self.s11_word_2.d.next = self.corners.word_0.val();
+            }
             self.s11_word_3.d.next = self.corners.word_3.val();
             self.s11_sends.d.next = self.corners.fetch.val();
-            self.s11_zero.d.next = self.corners.zero.val();
+            self.s11_zero.d.next = self.zero.val();
             self.s11_area.d.next = self.corners.area.val();
             self.s11_fails.d.next = self.corners.fails.val();
             self.s12_sends.d.next = self.s11_sends.q.val();
@@ -287,19 +285,19 @@ impl<const M: usize, const X: usize, const R: usize, const T: usize, const B: us
         }
 
         // s14_entries, and their sum, which wraps at 2^B by intent: s15_lower and s15_upper, s16_sum.
-        self.entry_0.next = self.s13_table_0.read_data.val();
+        self.entry_0.next = self.s13_behind.read_data.val();
         if self.s13_zero.q.val().get_bit(0) {
             self.entry_0.next = 0.into();
         }
-        self.entry_1.next = self.s13_table_1.read_data.val();
+        self.entry_1.next = self.s13_behind.second_data.val();
         if self.s13_zero.q.val().get_bit(1) {
             self.entry_1.next = 0.into();
         }
-        self.entry_2.next = self.s13_table_2.read_data.val();
+        self.entry_2.next = self.s13_first.read_data.val();
         if self.s13_zero.q.val().get_bit(2) {
             self.entry_2.next = 0.into();
         }
-        self.entry_3.next = self.s13_table_3.read_data.val();
+        self.entry_3.next = self.s13_first.second_data.val();
         if self.s13_zero.q.val().get_bit(3) {
             self.entry_3.next = 0.into();
         }
@@ -360,6 +358,6 @@ ports! {
         inputs: in_valid, in_kind, in_x, in_y, in_a, in_b, in_sum, in_width, in_height, in_slide, out_ready;
         outputs: in_ready, out_valid, out_sum, out_area, error;
         blocks: corners;
-        state: corners, s11_word_0, s11_word_1, s11_word_2, s11_word_3, s11_sends, s11_zero, s11_area, s11_fails, s13_table_0, s13_table_1, s13_table_2, s13_table_3, s12_sends, s12_zero, s12_area, s12_fails, s13_sends, s13_zero, s13_area, s13_fails, s14_sends, s14_entry_0, s14_entry_1, s14_entry_2, s14_entry_3, s14_area, s14_fails, s15_sends, s15_lower, s15_upper, s15_area, s15_fails, s16_sends, s16_sum, s16_area, failed, moves, reads, sent_valid, sent_sum, sent_area, sent_failed, spare_valid, spare_sum, spare_area, spare_failed
+        state: corners, s11_store, s11_value, s11_word_0, s11_word_1, s11_word_2, s11_word_3, s11_sends, s11_zero, s11_area, s11_fails, s13_behind, s13_first, s12_sends, s12_zero, s12_area, s12_fails, s13_sends, s13_zero, s13_area, s13_fails, s14_sends, s14_entry_0, s14_entry_1, s14_entry_2, s14_entry_3, s14_area, s14_fails, s15_sends, s15_lower, s15_upper, s15_area, s15_fails, s16_sends, s16_sum, s16_area, failed, moves, reads, sent_valid, sent_sum, sent_area, sent_failed, spare_valid, spare_sum, spare_area, spare_failed
     }
 }

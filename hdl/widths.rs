@@ -23,7 +23,7 @@ pub struct WidthSet {
     pub side_bits: usize,
     /// The memory of a map's levels has 2^texel_bits words in four banks.
     pub texel_bits: usize,
-    /// The memory of a summed-area table has 2^table_bits sums; four copies of it stand in `sat_fetch_parallel`.
+    /// The memory of a summed-area table has 2^table_bits sums; two copies of it stand in `sat_fetch_parallel`.
     pub table_bits: usize,
     /// Bits of a sum in a summed-area table, B.
     pub sum_bits: usize,

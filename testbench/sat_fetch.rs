@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Binds the fetch from summed-area tables to its golden model, which serves the version with four copies, too.
+//! Binds the fetch from summed-area tables to its golden model, which serves the version with two copies, too.
 
 use crate::binding::{Beat, Binding, Expected, Model, Random, unsigned_fields};
 use crate::device::Device;

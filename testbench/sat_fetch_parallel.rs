@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Binds the fetch from four copies of a summed-area table: beats and golden model are those of [`crate::sat_fetch`].
+//! Binds the fetch from two copies of a summed-area table: beats and golden model are those of [`crate::sat_fetch`].
 
 use crate::binding::{Beat, Binding, Model};
 use crate::device::Device;
@@ -8,7 +8,7 @@ use crate::stepped::Stepped;
 use relief_hdl::widths::WidthSet;
 use relief_hdl::with_width_set;
 
-/// The fetch from four copies of a summed-area table.
+/// The fetch from two copies of a summed-area table.
 #[derive(Clone, Copy, Debug)]
 pub struct SatFetchParallelBinding;
 
@@ -17,7 +17,7 @@ impl Binding for SatFetchParallelBinding {
         "sat_fetch_parallel"
     }
     fn summary(&self) -> &'static str {
-        "the sum of a rectangle from four copies of a summed-area table"
+        "the sum of a rectangle from two copies of a summed-area table"
     }
     fn latency(&self) -> &'static str {
         "17"

@@ -46,7 +46,7 @@ impl<const H: usize> Logic for BisectorCorner<H> {
         if self.go.val() {
             // s1_at: u goes nowhere for 2 and 6, and down for 3, 4 and 5. Corners lie in the lattice, 0 ..= 2^(K + 1).
             self.s1_u.d.next = self.u.val();
-            if !(self.towards.val().get_bit(1) && !self.towards.val().get_bit(0)) {
+            if !self.towards.val().get_bit(1) || self.towards.val().get_bit(0) {
                 if self.towards.val().get_bit(2) != self.towards.val().get_bit(1) {
                     self.s1_u.d.next = self.u.val() - self.step.val();
                 } else {

@@ -58,7 +58,7 @@ impl<const H: usize> Logic for BisectorHalf<H> {
             // s1_at: against the half's direction, whose u is 0 for 2 and 6 and below 0 for 3, 4 and 5. The midpoint stays in
             // the lattice, 0 ..= 2^(K + 1).
             self.s1_u.d.next = self.u.val();
-            if !(self.to.val().get_bit(1) && !self.to.val().get_bit(0)) {
+            if !self.to.val().get_bit(1) || self.to.val().get_bit(0) {
                 if self.to.val().get_bit(2) != self.to.val().get_bit(1) {
                     self.s1_u.d.next = self.u.val() + self.step.val();
                 } else {

@@ -19,9 +19,9 @@ use crate::signal::{ClockReset, Input, Latch, Output, U};
 use rust_hdl_core::prelude::*;
 
 /// Bits of a block RAM, without those that only words of nine bits have, and so the greatest depth of one.
-const BLOCK_BITS: usize = 1 << 14;
+pub(super) const BLOCK_BITS: usize = 1 << 14;
 /// Up to here a block RAM is nine bits wide or more, and whatever synthesis does with words is right.
-const SHALLOW: usize = 2048;
+pub(super) const SHALLOW: usize = 2048;
 
 /// RAM of up to 2^A words of type `T` with a registered output, and with a registered write where it is `LATE`: a decoder
 /// of many block RAMs then ends at a register, and not at all of them.
@@ -189,7 +189,7 @@ impl<T: Synth, const A: usize, const LATE: bool> Logic for RegisteredRam<T, A, L
 
 /// Width of the columns of a memory of `depth` words: the greatest one that divides the word, and of which a block RAM
 /// holds all words.
-fn column(bits: usize, depth: usize) -> usize {
+pub(super) fn column(bits: usize, depth: usize) -> usize {
     let most = BLOCK_BITS / depth.next_power_of_two();
     (1..=most).rev().find(|width| bits.is_multiple_of(*width)).unwrap_or(1)
 }

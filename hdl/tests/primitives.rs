@@ -136,6 +136,39 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Steps a RAM of 8 words beside a list of words. What is read of a word that is written means nothing.
+    #[test]
+    fn two_port_ram_reads_at_both_ports_two_cycles_later_and_holds(
+        steps in prop::collection::vec([0i64..2, 0i64..8, -500_000i64..500_000, 0i64..8, 0i64..2, 0i64..2], 1..200),
+    ) {
+        let mut ram = TwoPortRam::<S<20>, 3>::default();
+        let mut words = [S::<20>::default(); 8];
+        let (mut word, mut held) = ([Some(words[0]); 2], [Some(words[0]); 2]);
+        for [write, at, value, second, enable, output_enable] in steps {
+            (ram.write_enable.next, ram.enable.next, ram.output_enable.next) =
+                (write == 1, enable == 1, output_enable == 1);
+            (ram.address.next, ram.second_address.next) = (U::new(at), U::new(second));
+            ram.write_data.next = S::new(value);
+            ram.latch(false);
+            if output_enable == 1 {
+                held = word;
+            }
+            if enable == 1 {
+                word = [at, second].map(|read| (write == 0 || at != read).then_some(words[read as usize]));
+            }
+            if write == 1 {
+                words[at as usize] = S::new(value);
+            }
+            for (data, held) in [ram.read_data.val(), ram.second_data.val()].into_iter().zip(held) {
+                if let Some(held) = held {
+                    prop_assert_eq!(data, held);
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn multiplier_takes_the_minimum_of_both_formats() {
     let mut multiplier = Multiplier::<4, 4, 8>::default();
