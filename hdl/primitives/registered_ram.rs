@@ -20,6 +20,8 @@ use rust_hdl_core::prelude::*;
 
 /// Bits of a block RAM, without those that only words of nine bits have, and so the greatest depth of one.
 pub(super) const BLOCK_BITS: usize = 1 << 14;
+/// Bits beyond which no part has the block RAM: what tells synthesis how to build it would be thousands of pieces.
+pub(super) const LARGEST: usize = 1 << 22;
 /// Up to here a block RAM is nine bits wide or more, and whatever synthesis does with words is right.
 pub(super) const SHALLOW: usize = 2048;
 
@@ -128,8 +130,10 @@ impl<T: Synth, const A: usize, const LATE: bool> Logic for RegisteredRam<T, A, L
         let last = depth - 1;
         let (part, unused) = address::<A>(last, &["write_address", "read_address"]);
         // Banks of one block RAM's depth, columns of its width.
-        let banks = depth.div_ceil(BLOCK_BITS);
-        let width = if depth <= SHALLOW { bits } else { column(bits, depth.min(BLOCK_BITS)) };
+        let whole = depth <= SHALLOW || depth * bits > LARGEST;
+        let banks = if whole { 1 } else { depth.div_ceil(BLOCK_BITS) };
+        let deepest = if whole { depth } else { depth.min(BLOCK_BITS) };
+        let width = if whole { bits } else { column(bits, deepest) };
         let row = BLOCK_BITS.trailing_zeros() as usize;
         let top = (usize::BITS - last.leading_zeros()).max(1) as usize - 1;
         let chosen = |port: &str, bank: &str| match banks {
@@ -137,7 +141,7 @@ impl<T: Synth, const A: usize, const LATE: bool> Logic for RegisteredRam<T, A, L
             _ => format!(" && @{port}[{top}:{row}] == {bank}"),
         };
         let place = if banks == 1 { part } else { format!("[{}:0]", row - 1) };
-        let (all, banks_less_one, rows) = (banks * bits - 1, banks - 1, depth.min(BLOCK_BITS) - 1);
+        let (all, banks_less_one, rows) = (banks * bits - 1, banks - 1, deepest - 1);
         let mut text = format!("{INLINE}{unused}reg [{all}:0] @word;\n");
         let (mut enable, mut from) = (
             format!("@write_enable{}", chosen("write_address", "@b")),

@@ -11,7 +11,7 @@
 //! reads then is not said.
 
 use crate::primitives::INLINE;
-use crate::primitives::registered_ram::{BLOCK_BITS, SHALLOW, column};
+use crate::primitives::registered_ram::{BLOCK_BITS, LARGEST, SHALLOW, column};
 use crate::signal::{ClockReset, Input, Latch, Output, U};
 use rust_hdl_core::prelude::*;
 
@@ -107,8 +107,10 @@ impl<T: Synth, const A: usize> Logic for TwoPortRam<T, A> {
     fn hdl(&self) -> Verilog {
         let (bits, depth) = (T::BITS, self.words.len());
         // Banks of one block RAM's depth, columns of its width; every bank's word is held, and which of them was meant.
-        let (banks, rows) = (depth.div_ceil(BLOCK_BITS), depth.min(BLOCK_BITS));
-        let width = if depth <= SHALLOW { bits } else { column(bits, rows) };
+        let whole = depth <= SHALLOW || depth * bits > LARGEST;
+        let banks = if whole { 1 } else { depth.div_ceil(BLOCK_BITS) };
+        let rows = if whole { depth } else { depth.min(BLOCK_BITS) };
+        let width = if whole { bits } else { column(bits, rows) };
         let row = rows.trailing_zeros() as usize;
         let (chosen, place) = match banks {
             1 => (String::new(), String::new()),
