@@ -83,6 +83,8 @@ pub struct Proof<'a> {
     solver: &'a Solver,
     contract: &'static Contract,
     folder: tempfile::TempDir,
+    /// Whether there is a fault to be noticed.
+    faulty: bool,
     /// Whether there is a path from `out_ready` to the output.
     follows: Vec<String>,
 }
@@ -130,7 +132,7 @@ impl<'a> Proof<'a> {
         let path = fs::read_to_string(folder.path().join("path.txt"))
             .map_err(|error| format!("{what}: what follows out_ready was not written: {error}"))?;
         let follows = path.lines().map(|line| line.trim_start_matches(&format!("{TOP}/")).to_owned()).collect();
-        Ok(Proof { solver, contract, folder, follows })
+        Ok(Proof { solver, contract, folder, faulty: fault.is_some(), follows })
     }
 
     /// Proves a property, or says what stands against it. A waveform of a counterexample goes to `waveform`.
@@ -195,6 +197,10 @@ impl<'a> Proof<'a> {
         match induction {
             Some(steps) if self.solve(property, Some(steps), true, waveform)? == passed() => {
                 Ok(Verdict::Proved(format!("{of}induction over {steps} cycles")))
+            }
+            // A fault may show later than that from reset; then it is the induction that notices it.
+            Some(steps) if self.faulty => {
+                Ok(Verdict::Failed(format!("the induction over {steps} cycles does not close any more"), None))
             }
             _ => Ok(Verdict::Bounded(format!("{of}{cycles} cycles from reset; {WHY}"))),
         }
