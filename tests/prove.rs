@@ -36,9 +36,10 @@ fn is_quick() -> bool {
     quick
 }
 
-/// What is left to `relief prove`: the solver takes a minute.
+/// What is left to `relief prove`: the solver takes a minute, and for the bisector an hour.
 fn is_long(contract: &Contract, property: Property) -> bool {
-    [("sat_average", Property::Equal), ("remesher", Property::Held)].contains(&(contract.name, property))
+    let long = [("sat_average", Property::Equal), ("remesher", Property::Held), ("bisector", Property::Held)];
+    long.contains(&(contract.name, property))
 }
 
 /// The contracts that the solver is quick with.

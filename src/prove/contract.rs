@@ -215,7 +215,7 @@ pub const CONTRACTS: [Contract; 16] = [
         claims: &[bounded(Property::Counted, 24, ""), induction(Property::Room, 3)],
         reach: 45,
         cut: &[Property::Room, Property::Reached],
-        faults: &[fault(Property::Room, "bisector_queue", "!held_q[3] && !held_q[4]", "!held_q[4]")],
+        faults: &[fault(Property::Room, "bisector_queue", "{!held_q[3]} && {!held_q[4]}", "{!held_q[4]}")],
         ..NONE
     },
     Contract {

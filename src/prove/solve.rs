@@ -153,6 +153,10 @@ impl<'a> Proof<'a> {
                 if self.solve(property, Some(INDUCTION), true, waveform)? == passed() {
                     return Ok(Verdict::Proved(format!("induction over {INDUCTION} cycles")));
                 }
+                if self.faulty {
+                    let what = format!("the induction over {INDUCTION} cycles does not close any more");
+                    return Ok(Verdict::Failed(what, None));
+                }
                 if *reach == 0 {
                     let what = "induction does not close, and the first beat comes later than a solver sees";
                     return Err(format!("`held` of {name}: {what}"));

@@ -161,7 +161,7 @@ fn stream(text: &mut String, emission: &Emission, contract: &Contract, fault: Op
     add(match fault {
         // The last beat once more.
         Some(Property::Counted) => format!("assign {{{all}}} = again ? before : now;"),
-        Some(Property::Equal) => format!("assign {{{all}}} = now ^ {{{{{bits}{{1'b0}}}}, 1'b1}};"),
+        Some(Property::Equal) => format!("assign {{{all}}} = ~now;"),
         _ => format!("assign {{{all}}} = now;"),
     });
     add(format!("always @(posedge clock) before <= {{{all}}};"));
