@@ -144,6 +144,9 @@ impl<'a> Proof<'a> {
         if let Some(claim) = claims.iter().find(|claim| claim.property == property) {
             return self.claim(claim, waveform);
         }
+        if let Some((_, why)) = self.contract.open.iter().find(|(open, _)| *open == property) {
+            return Ok(Verdict::Nothing(why));
+        }
         match property {
             Property::Held if part.is_none() => {
                 let base = self.solve(property, Some(INDUCTION), false, waveform)?;
