@@ -43,7 +43,7 @@ impl Property {
         Property::Reached,
     ];
 
-    /// The name, as `--property` takes it and labels begin with it.
+    /// The name, as `--property` takes it and as labels have it.
     pub const fn name(self) -> &'static str {
         match self {
             Property::Held => "held",

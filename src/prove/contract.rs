@@ -2,7 +2,7 @@
 //! What each block promises on its streams, and what parts of blocks promise that a solver sees through alone.
 //!
 //! The promises are Verilog (`src/prove/contract/*.sv`) in a module round the block (`wrapper`): labels begin with the
-//! name of the property, and `\block.x ` is the signal `x` of the block, or of an instance within it.
+//! names of its properties, and `\block.x ` is the signal `x` of the block, or of an instance within it.
 
 use relief_hdl::mip_build::ExtremaMemory;
 use relief_hdl::primitives::Divider;
@@ -138,11 +138,17 @@ pub const CONTRACTS: [Contract; 16] = [
         name: "strip_unit",
         exchange: Some(Exchange { asks: r"asked && (\block.first || \block.second || in_last)", answers: "1'b1" }),
         text: include_str!("contract/strip_unit.sv"),
-        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 8), induction(Property::Room, 3)],
+        claims: &[
+            induction(Property::Counted, 3),
+            induction(Property::Answered, 8),
+            induction(Property::Equal, 3),
+            induction(Property::Room, 3),
+        ],
         reach: 26,
-        cut: &[Property::Counted, Property::Answered, Property::Room, Property::Reached],
+        cut: &[Property::Counted, Property::Answered, Property::Equal, Property::Room, Property::Reached],
         faults: &[
             fault(Property::Answered, "column_memory", "room_d = used_q < 5'd14", "room_d = 1'b0"),
+            fault(Property::Equal, "strip_unit", "right_stored_q && column_single", "right_stored_q"),
             fault(Property::Room, "column_memory", "used_q < 5'd14", "used_q < 5'd16"),
         ],
         ..NONE
@@ -294,9 +300,20 @@ pub const CONTRACTS: [Contract; 16] = [
         name: "sweep",
         part: Some(Part { of: "remesher", widths: "scalars of 6 bits", emit: || emit(&Sweep::<6>::default()) }),
         text: include_str!("contract/sweep.sv"),
-        claims: &[induction(Property::Held, 3)],
+        claims: &[
+            induction(Property::Held, 3),
+            bounded(Property::Answered, 27, "all base triangles of up to 3 voxels"),
+        ],
         reach: 24,
-        faults: &[fault(Property::Held, "sweep", "out_valid_d = 1'b0", "out_valid_d = out_valid_q")],
+        faults: &[
+            fault(Property::Held, "sweep", "out_valid_d = 1'b0", "out_valid_d = out_valid_q"),
+            fault(
+                Property::Answered,
+                "sweep",
+                "last_column_d = columns_q == 6'sd2",
+                "last_column_d = columns_q == 6'sd1",
+            ),
+        ],
         ..PART
     },
 ];

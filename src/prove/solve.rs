@@ -300,7 +300,9 @@ fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String
         let kept = match property {
             Property::Reached => "delete t:$assert\ndelete t:$assume c:always* %d\n".to_owned(),
             _ if claimed || (property == Property::Held && contract.part.is_none()) => {
-                format!("delete t:$assert c:{name}* %d\ndelete t:$cover\ndelete t:$assume c:{name}* %d c:always* %d\n")
+                // A label may name several.
+                let named = format!("c:{name}_* c:*_{name}_* %u");
+                format!("delete t:$assert {named} %d\ndelete t:$cover\ndelete t:$assume {named} %d c:always* %d\n")
             }
             _ => continue,
         };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The module `relief_proof`: a block whose inputs are anything, its promises as assertions, and a fault on request.
 //!
-//! The reset stands in the first cycle and never again. Labels begin with the name of the property, so that one netlist
+//! The reset stands in the first cycle and never again. Labels begin with the names of their properties, so that one netlist
 //! serves all of them. Signals within the block are declared as wires that flattening joins with their namesakes.
 
 use std::collections::BTreeSet;

@@ -6,9 +6,8 @@
     wire [4:0] next_level = \block.level_q + 5'd1;
     wire folds = next_level != \block.levels_q ;
     always @* if (started) begin
-        counted_stages: assert (under_way == out_valid + \block.spare_valid_q );
-        counted_spare: assert (!\block.spare_valid_q || out_valid);
-        answered_stages: assert (under_way == out_valid + \block.spare_valid_q && (!\block.spare_valid_q || out_valid));
+        counted_answered_stages: assert (under_way == out_valid + \block.spare_valid_q );
+        counted_answered_held_spare: assert (!\block.spare_valid_q || out_valid);
         answered_in_time: assert (silent == 0);
         // While a map is taken, nothing waits at the output: the error that a beat of it may be comes with no node.
         held_map: assert (!(\block.level_q == 0 && state >= 1 && state <= 3)
@@ -18,9 +17,7 @@
         held_folds: assert (!(state >= 2 && state <= 4 || state == 1 && \block.measured_q != 0)
             || \block.folds_q == folds || (\block.level_q != 0 && !\block.feed_valid_q ));
         held_states: assert (state < 6 && (state == 0 || state > 2 || \block.level_q == 0));
-        held_above: assert (\block.above_map_q == (\block.level_q != 0));
-        held_spare: assert (!\block.spare_valid_q || out_valid);
-        room_above: assert (\block.above_map_q == (\block.level_q != 0));
+        held_room_above: assert (\block.above_map_q == (\block.level_q != 0));
         room_spare: assert (!(\block.sends && \block.spare_valid_q ));
         room_feed: assert (\block.level_q == 0 || \block.feed_room_q + coming + kept + \block.feed_valid_q == 8);
         room_free: assert (\block.level_q == 0 || \block.feed_free_q == (\block.feed_room_q != 0));

@@ -4,12 +4,9 @@
     wire [7:0] waiting = \block.queue.waiting_q ;
     wire [3:0] between = \block.queue.write_place_q - \block.queue.read_place_q ;
     always @* if (started) begin
-        counted_queue: assert (under_way == waiting + \block.queue.held_q && waiting + coming <= 16);
-        counted_credit: assert (!\block.queue.has_room_q || waiting <= 8);
-        answered_queue: assert (under_way == waiting + \block.queue.held_q && waiting + coming <= 16);
-        answered_credit: assert (!\block.queue.has_room_q || waiting <= 8);
+        counted_answered_queue: assert (under_way == waiting + \block.queue.held_q && waiting + coming <= 16);
+        counted_answered_room_credit: assert (!\block.queue.has_room_q || waiting <= 8);
         answered_in_time: assert (silent <= 1);
         room_queue: assert (waiting <= 16 && between == waiting[3:0]);
         room_coming: assert (waiting + coming <= 16);
-        room_credit: assert (!\block.queue.has_room_q || waiting <= 8);
     end

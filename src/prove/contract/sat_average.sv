@@ -1,10 +1,8 @@
     wire busy = \block.s2_quotient.working_q ;
     wire [7:0] left = \block.s2_quotient.count_q ;
     always @* if (started) begin
-        counted_stages: assert (under_way == \block.s1_valid_q + busy + \block.s3_valid_q && under_way <= 1);
-        counted_steps: assert (\block.s2_quotient.last_q == (busy && left == 1) && (!busy || (left >= 1 && left <= 25)));
-        answered_stages: assert (under_way == \block.s1_valid_q + busy + \block.s3_valid_q && under_way <= 1);
-        answered_steps: assert (\block.s2_quotient.last_q == (busy && left == 1) && (!busy || (left >= 1 && left <= 25)));
+        counted_answered_stages: assert (under_way == \block.s1_valid_q + busy + \block.s3_valid_q && under_way <= 1);
+        counted_answered_steps: assert (\block.s2_quotient.last_q == (busy && left == 1) && (!busy || (left >= 1 && left <= 25)));
         answered_age: assert (under_way == 0 || out_valid || (busy ? silent + left <= 26 : silent == 0));
         answered_in_time: assert (silent <= 26);
     end

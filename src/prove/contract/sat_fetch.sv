@@ -38,10 +38,8 @@
     wire [1:0] behind_14 = \block.s13_sends_q ? \block.s13_phase_q : behind_13;
     wire [1:0] behind_15 = \block.s14_sends_q ? \block.s14_phase_q : behind_14;
     always @* if (started) begin
-        counted_stages: assert (under_way == number);
-        counted_phase: assert (\block.corners.s10_fetch_q || \block.phase_q == 0);
-        answered_stages: assert (under_way == number);
-        answered_phase: assert (\block.corners.s10_fetch_q || \block.phase_q == 0);
+        counted_answered_stages: assert (under_way == number);
+        counted_answered_phase: assert (\block.corners.s10_fetch_q || \block.phase_q == 0);
         answered_age: assert (under_way == 0 || silent < age);
         answered_in_time: assert (silent <= 17);
         // Nothing is subtracted here.

@@ -29,15 +29,11 @@
         if (out_valid) equal_sum: assert (out_sum + `entry(5, sent) == `entry(4, sent));
     end
     always @* if (started) begin
-        counted_stages: assert (under_way == number);
-        counted_spare: assert (!\block.spare_valid_q || out_valid);
-        counted_moves: assert (\block.moves_q == !\block.spare_valid_q );
-        answered_stages: assert (under_way == number);
-        answered_spare: assert (!\block.spare_valid_q || out_valid);
-        answered_moves: assert (\block.moves_q == !\block.spare_valid_q );
+        counted_answered_stages: assert (under_way == number);
+        counted_answered_spare: assert (!\block.spare_valid_q || out_valid);
+        counted_answered_room_moves: assert (\block.moves_q == !\block.spare_valid_q );
         answered_age: assert (under_way == 0 || silent < age);
         answered_in_time: assert (silent <= 16);
         room_spare: assert (!(\block.arrives && \block.go && \block.spare_valid_q ));
-        room_moves: assert (\block.moves_q == !\block.spare_valid_q );
         reached_spare: cover (\block.spare_valid_q );
     end

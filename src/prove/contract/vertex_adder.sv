@@ -1,6 +1,5 @@
     always @* if (started) begin
-        counted_stage: assert (under_way == out_valid);
-        answered_stage: assert (under_way == out_valid);
+        counted_answered_stage: assert (under_way == out_valid);
         answered_in_time: assert (silent == 0);
     end
     // A ripple of full adders, lane by lane, is not how the block says it.
