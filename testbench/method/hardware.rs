@@ -13,6 +13,7 @@ use relief_models::mesh::Progress;
 
 /// Words of an output beat: side, start and walker, and the end of the draw.
 const FLAGS: std::ops::Range<usize> = 3..6;
+const WALKER: usize = 5;
 const END: usize = 6;
 const CYCLES: usize = 7;
 
@@ -31,7 +32,7 @@ struct Expected {
     counts: Counts,
 }
 
-/// Draws a map and hands its triangles to `sink`, from the engine's own outputs.
+/// Draws a map and hands its triangles to `sink`, each with its walker, from the engine's own outputs.
 ///
 /// # Errors
 /// The hardware does not send what golden does, or the emitted module does not follow it.
@@ -39,7 +40,7 @@ pub(super) fn draw(
     memories: &Memories,
     engine: Engine,
     progress: &dyn Progress,
-    sink: &mut dyn FnMut([Vertex; 3]),
+    sink: &mut dyn FnMut(usize, [Vertex; 3]),
 ) -> Result<Hardware, MethodError> {
     let lattice = &memories.lattice;
     let error_bits = memories.error_bits();
@@ -85,16 +86,17 @@ pub(super) fn draw(
             silent = 0;
             ended = decoder.compare(&stage.outputs, &expected)?;
             if module.is_none()
-                && let Some((_, corners)) = expected.triangles.get(decoder.sent - 1).filter(|_| !ended)
+                && let Some((triangle, corners)) = expected.triangles.get(decoder.sent - 1).filter(|_| !ended)
             {
-                sink(*corners);
+                sink(triangle.walker.into(), *corners);
             }
         }
         if let Some(module) = &mut module {
             module.note(&stage);
             if module.is_full() || ended {
                 let outputs = module.run()?;
-                outputs.iter().filter_map(|outputs| decoder.triangle(outputs)).for_each(&mut *sink);
+                let triangles = outputs.iter().filter_map(|outputs| decoder.triangle(outputs));
+                triangles.for_each(|(walker, corners)| sink(walker, corners));
             }
         }
         stage.device.edge();
@@ -122,11 +124,11 @@ impl Decoder {
     fn words(&self, outputs: &[u64]) -> Beat {
         self.layout.out_fields().flat_map(|(port, at)| &outputs[*at..at + port.words()]).copied().collect()
     }
-    /// The triangle of a cycle, if one stands at the output.
-    fn triangle(&self, outputs: &[u64]) -> Option<[Vertex; 3]> {
+    /// The walker and the triangle of a cycle, if one stands at the output.
+    fn triangle(&self, outputs: &[u64]) -> Option<(usize, [Vertex; 3])> {
         let valid = outputs[self.layout.out_valid] == 1;
         let words = valid.then(|| self.words(outputs)).filter(|words| words[END] == 0)?;
-        Some(corners_of(&words))
+        Some((words[WALKER] as usize, corners_of(&words)))
     }
     /// Whether the draw is over.
     fn compare(&mut self, outputs: &[u64], expected: &Expected) -> Result<bool, MethodError> {

@@ -4,7 +4,7 @@
 use super::hardware::draw;
 use super::{Engine, MethodError, Tessellation};
 use relief_models::bake::{Baked, Flip, Tolerance, unflip};
-use relief_models::bisector::{Bound, Counts, Errors, Lattice, SplitMap, Triangle, Vertex, golden};
+use relief_models::bisector::{Bound, Counts, Errors, Lattice, SplitMap, Triangle, Vertex, WALKERS, golden};
 use relief_models::mesh::{Progress, TriangleMesh};
 use rustc_hash::FxHashMap;
 use std::time::Instant;
@@ -165,12 +165,14 @@ impl Memories {
         let mut builder = Builder::new(self);
         let hardware = match engine {
             Engine::Golden => {
-                self.golden(&mut |triangle| builder.triangle(triangle.corners.map(|at| self.vertex(at))));
+                self.golden(&mut |triangle| {
+                    builder.triangle(triangle.walker.into(), triangle.corners.map(|at| self.vertex(at)));
+                });
                 None
             }
-            _ => Some(draw(self, engine, progress, &mut |corners| builder.triangle(corners))?),
+            _ => Some(draw(self, engine, progress, &mut |walker, corners| builder.triangle(walker, corners))?),
         };
-        let (mesh, claim, growing) = (builder.mesh, Some(self.claim), self.growing);
+        let (mesh, claim, growing) = (builder.finish(), Some(self.claim), self.growing);
         Ok(Tessellation { mesh, claim, growing, hardware, preparation_seconds, golden_seconds })
     }
 }
@@ -194,9 +196,10 @@ impl Growing {
     }
 }
 
-/// Collects triangles, with each vertex once.
+/// Collects triangles, with each vertex once, walker by walker: strips of different ones share no cache.
 struct Builder {
     mesh: TriangleMesh,
+    strips: [Vec<[u32; 3]>; WALKERS],
     numbers: FxHashMap<[u32; 2], u32>,
     size: [usize; 2],
     flipped: Flip,
@@ -206,9 +209,15 @@ impl Builder {
     fn new(memories: &Memories) -> Self {
         let Lattice { width, height, .. } = memories.lattice;
         let size = [width as usize, height as usize];
-        Self { mesh: TriangleMesh::default(), numbers: FxHashMap::default(), size, flipped: memories.flipped }
+        Self {
+            mesh: TriangleMesh::default(),
+            strips: Default::default(),
+            numbers: FxHashMap::default(),
+            size,
+            flipped: memories.flipped,
+        }
     }
-    fn triangle(&mut self, corners: [Vertex; 3]) {
+    fn triangle(&mut self, walker: usize, corners: [Vertex; 3]) {
         let mut triangle = corners.map(|[u, v, z]| {
             *self.numbers.entry([u, v]).or_insert_with(|| {
                 let [x, y] = unflip([u, v], self.size, self.flipped);
@@ -220,6 +229,10 @@ impl Builder {
         if self.flipped[0] != self.flipped[1] {
             triangle.swap(0, 1);
         }
-        self.mesh.triangles.push(triangle);
+        self.strips[walker].push(triangle);
+    }
+    fn finish(mut self) -> TriangleMesh {
+        self.mesh.triangles = self.strips.concat();
+        self.mesh
     }
 }
