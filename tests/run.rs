@@ -118,6 +118,27 @@ fn run_keeps_a_closed_body_closed() -> Outcome {
 }
 
 /// What may surprise is said before the work, in one sentence with its place and what would be right.
+/// The frame of docs/scene.md. A step makes up to two triangles, so 1.10 cycles a triangle is twice what is allowed here.
+#[test]
+fn run_draws_a_terrain_of_860_thousand_triangles() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/terrain_25km.toml");
+    let (code, stdout, stderr) = run(&path, &["--out", folder.path().join("out").to_str().ok_or("no path")?]);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let number = |line: &str, at: usize| {
+        let line = stdout.lines().find(|found| found.trim_start().starts_with(line)).unwrap_or_default();
+        let numbers = line.split([' ', ',']).filter_map(|word| word.parse::<u64>().ok());
+        numbers.skip(at).next().unwrap_or_else(|| panic!("no `{line}` in {stdout}"))
+    };
+    let (triangles, cycles) = (number("triangles", 0), number("cycles", 0));
+    assert!((850_000..870_000).contains(&triangles), "{stdout}");
+    assert!(100 * cycles <= 55 * triangles, "{cycles} cycles for {triangles} triangles");
+    let waiting = number("of them waiting", 0) + number("of them waiting", 1);
+    assert!(100 * waiting <= cycles, "{waiting} of {cycles} cycles are waits");
+    assert!(stdout.lines().any(|line| line.split_whitespace().eq(["mismatches", "0"])), "{stdout}");
+    Ok(())
+}
+
 #[test]
 fn run_warns_of_what_may_surprise() -> Outcome {
     let folder = tempfile::tempdir()?;
