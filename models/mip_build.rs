@@ -91,8 +91,6 @@ pub struct Pyramid {
     pub centring: Centring,
     /// The borders of the axes u and v.
     pub wrap: [Wrap; 2],
-    /// What the levels keep.
-    pub extremum: Extremum,
 }
 
 /// Why a pyramid cannot be built.
@@ -237,7 +235,7 @@ fn build(
         let next = above(&below, centring, wrap, extremum);
         built.push(std::mem::replace(&mut below, next));
     }
-    Ok(Pyramid { levels: built, centring, wrap, extremum })
+    Ok(Pyramid { levels: built, centring, wrap })
 }
 
 /// The level above `below`.

@@ -6,7 +6,8 @@
 //! | `inputs` | maps and scenes become [`Subject`]s |
 //! | `collect`, `peers` | the [`Point`]s of a subject |
 //! | `front`, `repetition`, `advice` | what follows from them |
-//! | `figure`, `axis`, `draw` | the drawings |
+//! | `figure`, `axis`, `draw`, `picture` | the drawings |
+//! | `silhouettes` | horizons under filters |
 //! | `csv`, `page` | the texts |
 
 use relief_models::map::HeightMap;
@@ -23,9 +24,12 @@ mod front;
 pub mod inputs;
 pub mod page;
 pub mod peers;
+pub mod picture;
 mod repetition;
+pub mod silhouettes;
 
 pub use figure::Figure;
+use silhouettes::Silhouettes;
 
 /// A map to be meshed, and what it is called.
 #[derive(Clone, Debug)]
@@ -133,6 +137,8 @@ pub struct Chapter {
     pub subject: Subject,
     /// The meshes, method by method.
     pub points: Vec<Point>,
+    /// The horizon under every filter, at the steps of the grid that the map has room for.
+    pub silhouettes: Vec<Silhouettes>,
     /// Sentences: what did not run, and why.
     pub notes: Vec<String>,
     /// Whether a method of ours broke its claim, or its hardware differs.

@@ -23,6 +23,7 @@ pub mod prove;
 pub mod remesh;
 pub mod run;
 mod select;
+pub mod silhouette;
 pub mod sim;
 pub mod stability;
 pub mod synth;

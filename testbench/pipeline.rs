@@ -25,7 +25,7 @@ use crate::replay::{Replay, ReplayError};
 use crate::scoreboard::{Mismatch, PATIENCE};
 use relief_hdl::widths::WidthSet;
 use relief_models::draw::Draw;
-use relief_models::mip_build::{BuildSize, Extremum, Level, Pyramid, side_above};
+use relief_models::mip_build::{BuildSize, Level, Pyramid, side_above};
 use relief_models::mip_fetch::{Command, Filter};
 use relief_models::remesher::BaseTriangle;
 use relief_models::step::{Step, Vertex};
@@ -157,7 +157,7 @@ impl Pipeline {
     /// The block is at fault.
     pub fn build(&mut self, size: &BuildSize, samples: &[u16]) -> Result<Pyramid, PipelineError> {
         let BuildSize { width, height, wrap, centring, levels, poles } = *size;
-        let mut pyramid = Pyramid { levels: Vec::new(), centring, wrap, extremum: Extremum::Max };
+        let mut pyramid = Pyramid { levels: Vec::new(), centring, wrap };
         let (mut w, mut h) = (width, height);
         for _ in 0..levels {
             pyramid.levels.push(Level { width: w, height: h, samples: vec![0; w * h] });

@@ -82,8 +82,12 @@ fn chart_writes_table_page_and_drawings() -> Outcome {
     names.sort();
     let drawings = ["a-b-c-d", "dents"].into_iter().flat_map(|slug| FIGURES.map(|figure| format!("{slug}-{figure}")));
     let drawings: Vec<String> = drawings.collect();
-    let mut expected: Vec<String> = ["index.html", "mine.txt", "points.csv"].map(String::from).into();
-    expected.extend(drawings.iter().flat_map(|name| [format!("{name}.png"), format!("{name}.svg")]));
+    // As far as the maps have room for such a grid.
+    let horizons = ["a-b-c-d-silhouette-5", "a-b-c-d-silhouette-10"].into_iter();
+    let horizons = horizons.chain(["dents-silhouette-5", "dents-silhouette-10", "dents-silhouette-20"]);
+    let mut expected: Vec<String> = ["filters.csv", "index.html", "mine.txt", "points.csv"].map(String::from).into();
+    let all = drawings.iter().cloned().chain(horizons.map(String::from));
+    expected.extend(all.flat_map(|name| [format!("{name}.png"), format!("{name}.svg")]));
     expected.sort();
     assert_eq!(names, expected);
     for name in &drawings {
@@ -97,6 +101,9 @@ fn chart_writes_table_page_and_drawings() -> Outcome {
         assert!(svg.trim_end().ends_with("</svg>") && !svg.contains("a <b>"), "{name}");
     }
     check_rows(&rows(&fs::read_to_string(out.join("points.csv"))?))?;
+    let horizons = fs::read_to_string(out.join("filters.csv"))?;
+    assert_eq!(horizons.lines().next(), Some("# relief filters 1"));
+    assert_eq!(horizons.lines().count(), 2 + 5 * 8, "{horizons}");
     let page = fs::read_to_string(out.join("index.html"))?;
     for method in METHODS {
         assert!(page.contains(&format!("<td>{}</td>", method.name())), "{}", method.name());

@@ -5,14 +5,15 @@ use relief_models::bake::Tolerance;
 use relief_models::mesh::Progress;
 use relief_testbench::method::{Engine, Goal, METHODS, Method, MethodError, Verdict};
 
-use super::{Chapter, Figure, Kind, Point, Subject};
+use super::{Chapter, Figure, Kind, Point, Subject, silhouettes};
 
 /// Shares of the range that every method is asked for besides its own goals, in percent: what the page compares.
 pub const TOLERANCES: [u32; 2] = [1, 2];
 
 /// The chapter of a map, with the points of our methods.
 pub fn collect(subject: Subject, count: usize, engine: Engine, progress: &dyn Progress) -> Chapter {
-    let mut chapter = Chapter { subject, points: Vec::new(), notes: Vec::new(), failures: Vec::new() };
+    let silhouettes = silhouettes::of(&subject);
+    let mut chapter = Chapter { subject, points: Vec::new(), silhouettes, notes: Vec::new(), failures: Vec::new() };
     for method in METHODS {
         let begun = chapter.points.len();
         for goal in goals(*method, &chapter.subject, count) {

@@ -95,7 +95,7 @@ fn row(subject: &Subject, point: &Point) -> String {
 }
 
 /// A field that may hold anything: RFC 4180.
-fn quoted(text: &str) -> String {
+pub fn quoted(text: &str) -> String {
     let plain = !text.contains([',', '"', '\n', '\r']);
     if plain { text.into() } else { format!("\"{}\"", text.replace('"', "\"\"")) }
 }

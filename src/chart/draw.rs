@@ -1,69 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One drawing: errors over costs, a series a method, with the front. SVG and PNG show the same.
+//! One drawing: errors over costs, a series a method, with the front.
 
-use std::error::Error;
-use std::io::Cursor;
-use std::sync::OnceLock;
-
-use plotters::backend::{BitMapBackend, DrawingBackend, SVGBackend};
+use plotters::backend::DrawingBackend;
 use plotters::coord::Shift;
-use plotters::drawing::{DrawingArea, DrawingAreaErrorKind, IntoDrawingArea};
+use plotters::drawing::DrawingArea;
 use plotters::element::{PathElement, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
-use plotters::style::{BLACK, Color, FontStyle, FontTransform, IntoFont, RGBColor, WHITE, register_font};
+use plotters::style::{BLACK, Color, FontTransform, IntoFont, RGBColor, WHITE};
 
 use super::axis::{Axis, Unit};
+use super::picture::{Drawing, Drawn};
 use super::{Chapter, Figure, Point};
 
 mod marks;
 
+pub use marks::COLOURS;
 use marks::look;
 
-/// Pixels of a drawing.
-const SIZE: (u32, u32) = (1440, 960);
 /// Sides of the plot: left, right, top, bottom.
 const PLOT: [i32; 4] = [150, 1060, 90, 820];
 /// Where the legend begins.
 const LEGEND: i32 = 1100;
-const SMALL: f64 = 25.0;
-const LARGE: f64 = 34.0;
-const GREY: RGBColor = RGBColor(90, 90, 90);
-const PALE: RGBColor = RGBColor(224, 224, 224);
-const FONT: &[u8] = include_bytes!("font/relief-sans.ttf");
+pub const SMALL: f64 = 25.0;
+pub const LARGE: f64 = 34.0;
+pub const GREY: RGBColor = RGBColor(90, 90, 90);
+pub const PALE: RGBColor = RGBColor(224, 224, 224);
 
-type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
+/// A drawing of a chapter.
+pub struct Errors<'a>(pub &'a Chapter, pub Figure);
 
-/// The drawing as SVG.
-///
-/// # Errors
-/// The drawing fails.
-pub fn svg(chapter: &Chapter, figure: Figure) -> Result<String, Box<dyn Error>> {
-    load_font()?;
-    let mut text = String::new();
-    draw(&SVGBackend::with_string(&mut text, SIZE).into_drawing_area(), chapter, figure)?;
-    Ok(text)
-}
-
-/// The drawing as PNG.
-///
-/// # Errors
-/// The drawing fails.
-pub fn png(chapter: &Chapter, figure: Figure) -> Result<Vec<u8>, Box<dyn Error>> {
-    load_font()?;
-    let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
-    draw(&BitMapBackend::with_buffer(&mut pixels, SIZE).into_drawing_area(), chapter, figure)?;
-    let mut file = Cursor::new(Vec::new());
-    let mut encoder = png::Encoder::new(&mut file, SIZE.0, SIZE.1);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.write_header()?.write_image_data(&pixels)?;
-    Ok(file.into_inner())
-}
-
-/// The font comes with the program, so that no machine draws another picture.
-fn load_font() -> Result<(), String> {
-    static LOADED: OnceLock<bool> = OnceLock::new();
-    let load = || register_font("sans-serif", FontStyle::Normal, FONT).is_ok();
-    if *LOADED.get_or_init(load) { Ok(()) } else { Err("the font of the drawings cannot be read".into()) }
+impl Drawing for Errors<'_> {
+    fn draw<B: DrawingBackend>(&self, area: &DrawingArea<B, Shift>) -> Drawn<B> {
+        draw(area, self.0, self.1)
+    }
 }
 
 /// What stands along the bottom.

@@ -7,11 +7,12 @@ use std::error::Error;
 use relief_testbench::method::METHODS;
 
 use super::advice::{self, count, figure};
-use super::{Chapter, Figure, draw};
+use super::draw::Errors;
+use super::{Chapter, Figure, picture};
 
 mod tables;
 
-use tables::{all_points, comparison};
+use tables::{all_points, comparison, filters};
 
 const STYLE: &str = include_str!("page/page.css");
 
@@ -90,9 +91,10 @@ fn section(chapter: &Chapter, absence: &[String]) -> Result<String, Box<dyn Erro
         let name = format!("{}-{}", subject.slug, at.name());
         let files = format!("<a href=\"{name}.svg\">SVG</a>, <a href=\"{name}.png\">PNG</a>");
         let caption = format!("<figcaption>{} ({files})</figcaption>", at.title());
-        text += &format!("<figure>\n{}\n{caption}\n</figure>\n", draw::svg(chapter, at)?);
+        text += &format!("<figure>\n{}\n{caption}\n</figure>\n", picture::svg(&Errors(chapter, at))?);
     }
     text += "</div>\n";
+    text += &horizons(chapter)?;
     text += &format!(
         "<details>\n<summary>All {} meshes of {}</summary>\n{}</details>\n",
         chapter.points.len(),
@@ -108,6 +110,29 @@ fn section(chapter: &Chapter, absence: &[String]) -> Result<String, Box<dyn Erro
         text += &list(chapter.notes.iter().chain(absence).cloned());
     }
     Ok(text + "</section>\n")
+}
+
+/// What filters do to the horizon.
+fn horizons(chapter: &Chapter) -> Result<String, Box<dyn Error>> {
+    if chapter.silhouettes.is_empty() {
+        return Ok(String::new());
+    }
+    let mut text = String::from("<h3>What filters keep of the horizon</h3>\n");
+    text += &paragraph(
+        "Vertices stand 5, 10 and 20 texels apart and take their heights from a level of each filter. Errors are those of the \
+         horizon seen from two sides, over all places of the grid, as shares of the range; a peak loss is how far the highest \
+         point sinks, and deepest the most that any column loses. Filters of minima are judged from below. Those that keep peaks \
+         are for maps seen from afar; means are for shading.",
+    );
+    text += &filters(chapter);
+    text += "<div class=\"figures\">\n";
+    for silhouettes in &chapter.silhouettes {
+        let name = format!("{}-{}", chapter.subject.slug, silhouettes.file());
+        let files = format!("<a href=\"{name}.svg\">SVG</a>, <a href=\"{name}.png\">PNG</a>");
+        let caption = format!("<figcaption>Horizon of a grid of {} texels ({files})</figcaption>", silhouettes.step);
+        text += &format!("<figure>\n{}\n{caption}\n</figure>\n", picture::svg(silhouettes)?);
+    }
+    Ok(text + "</div>\n")
 }
 
 /// How to read it, and what ran.
@@ -141,6 +166,7 @@ fn reading(chapters: &[Chapter], absence: &[String]) -> String {
         None => format!("{name} (peer): did not run"),
     });
     text += &list(ours.chain(peers).chain(absence.iter().cloned()));
-    text += "<p>The same points as comma-separated values: <a href=\"points.csv\">points.csv</a>.</p>\n";
+    text += "<p>The same points as comma-separated values: <a href=\"points.csv\">points.csv</a>; the horizons under filters: \
+             <a href=\"filters.csv\">filters.csv</a>.</p>\n";
     text
 }

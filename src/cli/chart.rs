@@ -9,8 +9,10 @@ use relief_testbench::method;
 use relief_testbench::output::OutputFolder;
 
 use super::{Meter, Outcome, Result, write_all};
+use crate::chart::draw::Errors;
 use crate::chart::peers::{self, Peers};
-use crate::chart::{Chapter, Figure, Kind, collect, csv, draw, inputs, page};
+use crate::chart::picture::pictures;
+use crate::chart::{Chapter, Figure, Kind, collect, csv, inputs, page, silhouettes};
 
 /// Chart every method on maps: error against triangles, hardware cycles, reads, memory and time
 ///
@@ -82,13 +84,19 @@ pub fn run(arguments: &Arguments) -> Result {
         chapters.push(chapter);
     }
     meter.finish();
-    let texts = [("points.csv", csv::table(&chapters)), ("index.html", page::page(&chapters, &absence)?)];
+    let texts = [
+        ("points.csv", csv::table(&chapters)),
+        ("filters.csv", silhouettes::csv(&chapters)),
+        ("index.html", page::page(&chapters, &absence)?),
+    ];
     let mut files: Vec<(String, Vec<u8>)> = texts.map(|(name, text)| (name.to_owned(), text.into_bytes())).into();
     for chapter in &chapters {
         for figure in Figure::ALL {
             let name = format!("{}-{}", chapter.subject.slug, figure.name());
-            files.push((format!("{name}.svg"), draw::svg(chapter, figure)?.into_bytes()));
-            files.push((format!("{name}.png"), draw::png(chapter, figure)?));
+            files.extend(pictures(&name, &Errors(chapter, figure))?);
+        }
+        for silhouettes in &chapter.silhouettes {
+            files.extend(pictures(&format!("{}-{}", chapter.subject.slug, silhouettes.file()), silhouettes)?);
         }
     }
     for (name, bytes) in files {
@@ -129,7 +137,8 @@ fn find_peers(wanted: Wanted) -> std::result::Result<(Option<Peers>, Vec<String>
 fn is_ours(name: &str) -> bool {
     let is_drawing =
         |figure: Figure| [".svg", ".png"].iter().any(|end| name.ends_with(&format!("-{}{end}", figure.name())));
-    name == "points.csv" || name == "index.html" || Figure::ALL.into_iter().any(is_drawing)
+    let is_text = ["points.csv", "filters.csv", "index.html"].contains(&name);
+    is_text || Figure::ALL.into_iter().any(is_drawing) || silhouettes::is_drawing(name)
 }
 
 fn table(chapters: &[Chapter], out: &Path) -> std::result::Result<String, std::fmt::Error> {

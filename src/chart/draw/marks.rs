@@ -10,12 +10,13 @@ use plotters::style::{BLACK, Color, RGBColor, ShapeStyle};
 use relief_testbench::method::METHODS;
 
 use super::super::{Chapter, Figure, Kind, Point, peers};
-use super::{Canvas, Drawn, GREY, LEGEND, PLOT, SMALL};
+use super::{Canvas, GREY, LEGEND, PLOT, SMALL};
+use crate::chart::picture::Drawn;
 
 const FRONT: RGBColor = RGBColor(150, 150, 150);
 /// Told apart by all kinds of eyes (Okabe and Ito 2008), but for its yellow, too pale on white. Their number and that of
 /// the shapes have no common divisor, so forty-two methods look different.
-const COLOURS: [RGBColor; 7] = [
+pub const COLOURS: [RGBColor; 7] = [
     RGBColor(0, 114, 178),
     RGBColor(213, 94, 0),
     RGBColor(0, 158, 115),

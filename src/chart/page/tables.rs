@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The tables of the page.
 
+use relief_models::silhouette::Horizon;
 use relief_testbench::method::Hardware;
 
 use super::super::advice::{self, Choice, count, figure};
@@ -130,4 +131,26 @@ pub fn all_points(chapter: &Chapter) -> String {
         "on the front of",
     ];
     table(&columns, &rows)
+}
+
+/// What every filter does to the horizon, a row a step and filter; the least RMS error and peak loss of a step are marked.
+pub fn filters(chapter: &Chapter) -> String {
+    let mut rows = String::new();
+    for silhouettes in &chapter.silhouettes {
+        let least = |of: &dyn Fn(&Horizon) -> f64| {
+            silhouettes.rows.iter().map(|(_, horizon)| of(horizon)).fold(f64::INFINITY, f64::min)
+        };
+        let best = [least(&|horizon| horizon.rms), least(&|horizon| horizon.peak_loss)];
+        for (filter, horizon) in &silhouettes.rows {
+            let share = |value: f64| format!("{value:.2} %");
+            rows += &format!("<tr><td>{}</td><td>{}</td>", filter.name(), silhouettes.step);
+            rows += &cell(&horizon.level.to_string(), false);
+            rows += &cell(&share(horizon.rms), horizon.rms == best[0]);
+            rows += &cell(&share(horizon.mean), false);
+            rows += &cell(&share(horizon.peak_loss), horizon.peak_loss == best[1]);
+            rows += &cell(&share(horizon.deepest), false);
+            rows += "</tr>\n";
+        }
+    }
+    table(&["filter", "step, texels", "level", "RMS", "mean", "peak loss", "deepest"], &rows)
 }
