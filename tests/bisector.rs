@@ -97,7 +97,7 @@ fn bisector_latency_is_its_constant() {
 #[test]
 fn bisector_takes_two_cycles_a_triangle() {
     // Whole columns of the last lattice are dead.
-    let maps = [(257, 257, 4_000), (200, 257, 9_000), (251, 131, 3_000), (256, 256, 60_000), (3, 257, 600)];
+    let maps = [(257, 257, 4_000), (200, 257, 9_000), (251, 131, 3_000), (256, 256, 60_000), (3, 257, 60_000)];
     println!("| map, splits at random | triangles | cycles a triangle |\n|---|---:|---:|");
     for (width, height, seeds) in maps {
         let lattice = Lattice::of(width, height, false).unwrap();
@@ -113,7 +113,7 @@ fn bisector_takes_two_cycles_a_triangle() {
         assert!((turns..turns + 32).contains(&cycles), "{width} x {height}: {cycles} cycles, {counts:?}");
         let rate = cycles as f64 / counts.triangles as f64;
         println!("| {width} x {height} | {} | {rate:.3} |", counts.triangles);
-        let most = if width == 3 { 2.8 } else { 2.04 };
+        let most = if width == 3 { 3.0 } else { 2.04 };
         assert!(rate <= most, "{width} x {height}: {rate} cycles a triangle");
         // Stalled cycles do not count.
         let (_, stalled) = run(&small::SET, map_beats(&lattice, &split), Pattern { idle: 0, stall: 60, seed: 5 });
