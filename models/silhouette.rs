@@ -66,6 +66,19 @@ pub enum SilhouetteError {
     Levels(#[from] MipError),
 }
 
+/// Whether a map has room for a grid of `step` texels at every place.
+///
+/// # Errors
+/// It has not, or there is no step.
+pub fn check(map: &HeightMap, step: u32) -> Result<(), SilhouetteError> {
+    let HeightMap { width, height, .. } = *map;
+    match step {
+        0 => Err(SilhouetteError::NoStep),
+        _ if width.min(height) < 2 * step as usize => Err(SilhouetteError::Small { width, height, step }),
+        _ => Ok(()),
+    }
+}
+
 /// A filter at a step, ready to be looked at.
 #[derive(Clone, Debug)]
 pub struct View<'a> {
@@ -83,13 +96,7 @@ impl<'a> View<'a> {
     /// # Errors
     /// See [`SilhouetteError`].
     pub fn new(map: &'a HeightMap, filter: Filter, pyramid: &'a Pyramid, step: u32) -> Result<Self, SilhouetteError> {
-        let HeightMap { width, height, .. } = *map;
-        if step == 0 {
-            return Err(SilhouetteError::NoStep);
-        }
-        if width.min(height) < 2 * step as usize {
-            return Err(SilhouetteError::Small { width, height, step });
-        }
+        check(map, step)?;
         let level = filter.level(step).min(pyramid.levels.len() - 1);
         Ok(Self { map, filter, pyramid, level, step: step as usize })
     }

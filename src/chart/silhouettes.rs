@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use relief_models::filters::Filter;
 use relief_models::map::HeightMap;
 use relief_models::mip_build::Wrap;
-use relief_models::silhouette::{Horizon, Profile, SilhouetteError, View, levels};
+use relief_models::silhouette::{Horizon, Profile, SilhouetteError, View, check, levels};
 
 use super::csv::quoted;
 use super::draw::{COLOURS, GREY, LARGE, PALE, SMALL};
@@ -75,8 +75,7 @@ pub fn measure(name: &str, map: &HeightMap, steps: &[u32]) -> Result<Vec<Silhoue
 
 /// All filters at those of [`STEPS`] that the map has room for.
 pub fn of(subject: &Subject) -> Vec<Silhouettes> {
-    let side = subject.map.width.min(subject.map.height);
-    let steps: Vec<u32> = STEPS.into_iter().filter(|step| 2 * *step as usize <= side).collect();
+    let steps: Vec<u32> = STEPS.into_iter().filter(|step| check(&subject.map, *step).is_ok()).collect();
     // With these steps nothing is refused.
     measure(&subject.name, &subject.map, &steps).unwrap_or_default()
 }

@@ -6,7 +6,7 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 
 use relief_models::map;
-use relief_models::silhouette::Horizon;
+use relief_models::silhouette::{Horizon, check};
 use relief_testbench::output::OutputFolder;
 use serde::Serialize;
 
@@ -71,8 +71,10 @@ pub fn run(arguments: &Arguments) -> Result {
     let Arguments { map: path, steps, out, json } = arguments;
     let (map, _) = map::read_values(path, MOST_SIDE)?;
     let name = path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned());
+    let of_map = |error| format!("{}: {error}", path.display());
+    steps.iter().try_for_each(|step| check(&map, *step)).map_err(of_map)?;
     let folder = OutputFolder::open(out)?;
-    let all = measure(&name, &map, steps).map_err(|error| format!("{}: {error}", path.display()))?;
+    let all = measure(&name, &map, steps).map_err(of_map)?;
     for silhouettes in &all {
         for (name, bytes) in pictures(&silhouettes.file(), silhouettes)? {
             std::fs::write(folder.path().join(name), bytes)
