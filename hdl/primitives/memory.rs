@@ -2,7 +2,8 @@
 //! Memories that synthesis infers as block RAM: one synchronous read port, and for the RAM one write port.
 //!
 //! RAM: read_data(t+1) = memory[read_address(t)] before the write of cycle t (read first); it holds while `enable` is low.
-//! ROM: read_data(t+1) = contents[read_address(t)]; the contents are loaded with `$readmemh`.
+//! ROM: read_data(t+1) = contents[read_address(t)]; it holds while `enable` is low. The contents are loaded with `$readmemh`,
+//! and stay in logic: a table of a few thousand bits is not worth a block RAM, of which maps need all there are.
 //!
 //! An address beyond the depth reads zero and writes nothing in simulation; hardware must not rely on it.
 
@@ -130,6 +131,8 @@ impl<T: Synth, const A: usize> Block for Ram<T, A> {
 pub struct Rom<T: Synth, const A: usize> {
     /// Clock; nothing is reset.
     pub clock: Input<ClockReset>,
+    /// Read enable: `read_data` holds when low; high when the kernel never drives it.
+    pub enable: Input<Bit>,
     /// Address.
     pub read_address: Input<U<A>>,
     /// Word addressed in the cycle before.
@@ -149,6 +152,7 @@ impl<T: Synth, const A: usize> Rom<T, A> {
         assert!(depth >= 1 && depth <= 1 << A, "a ROM of {depth} words needs an address of more than {A} bits");
         Self {
             clock: Input::default(),
+            enable: Input::new(true),
             read_address: Input::default(),
             read_data: Output::default(),
             file: format!("{name}.hex"),
@@ -162,6 +166,9 @@ impl<T: Synth, const A: usize> Rom<T, A> {
 impl<T: Synth, const A: usize> Latch for Rom<T, A> {
     #[inline(always)]
     fn latch(&mut self, _reset: bool) -> bool {
+        if !self.enable.next {
+            return false;
+        }
         let word = self.words.get(self.read_address.next.index()).copied().unwrap_or_default();
         let changed = word != self.read_data.next;
         self.read_data.next = word;
@@ -184,8 +191,8 @@ impl<T: Synth, const A: usize> Logic for Rom<T, A> {
         let (top_bit, last, file) = (T::BITS - 1, self.words.len() - 1, &self.file);
         let (bits, unused) = address::<A>(last, &["read_address"]);
         let mut text = format!(
-            "{INLINE}reg [{top_bit}:0] @memory [0:{last}];\n{unused}initial $readmemh(\"{file}\", @memory);\n\
-             always @(posedge clock) @read_data <= @memory[@read_address{bits}];\n"
+            "{INLINE}(* rom_style = \"logic\" *)\nreg [{top_bit}:0] @memory [0:{last}];\n{unused}initial $readmemh(\"{file}\", @memory);\n\
+             always @(posedge clock) if (@enable) @read_data <= @memory[@read_address{bits}];\n"
         );
         for word in &self.words {
             text += &format!("//hex {file} {}\n", hexadecimal(&word.vcd()));
@@ -209,6 +216,7 @@ impl<T: Synth, const A: usize> Block for Rom<T, A> {
     fn accept(&self, name: &str, probe: &mut dyn Probe) {
         probe.visit_start_scope(name, self);
         self.clock.accept("clock", probe);
+        self.enable.accept("enable", probe);
         self.read_address.accept("read_address", probe);
         self.read_data.accept("read_data", probe);
         probe.visit_end_scope(name, self);

@@ -186,6 +186,10 @@ fn rom_reads_its_words_a_cycle_later() {
         rom.latch(false);
         assert_eq!(rom.read_data.val(), *word);
     }
+    rom.enable.next = false;
+    rom.read_address.next = U::new(0);
+    rom.latch(false);
+    assert_eq!(rom.read_data.val(), words[6], "holds without enable");
 }
 
 #[test]
