@@ -9,6 +9,7 @@ pub mod mip_fetch;
 pub mod pipeline;
 pub mod ports;
 pub mod primitives;
+pub mod reciprocal;
 pub mod remesher;
 pub mod sat_average;
 pub mod sat_build;

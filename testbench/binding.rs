@@ -70,6 +70,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::sat_fetch_parallel::SatFetchParallelBinding,
     &crate::sat_average::SatAverageBinding,
     &crate::bisector::BisectorBinding,
+    &crate::reciprocal::ReciprocalBinding,
 ];
 
 /// The block of a name.

@@ -31,6 +31,7 @@ pub mod mip_fetch;
 pub mod output;
 pub mod pipeline;
 pub mod probe;
+pub mod reciprocal;
 pub mod remesh;
 pub mod remesher;
 pub mod replay;

@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 11] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -24,6 +24,7 @@ const NAMES: [&str; 10] = [
     "sat_fetch_parallel",
     "sat_average",
     "bisector",
+    "reciprocal",
 ];
 
 /// Exit code, stdout and stderr.
@@ -537,6 +538,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("sat_fetch", "2000"),
         ("sat_fetch_parallel", "2000"),
         ("sat_average", "500"),
+        ("reciprocal", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));

@@ -110,10 +110,18 @@ const FETCH: Contract = Contract {
     ..NONE
 };
 
+/// A straight pipeline, all of whose handshake is a `Flow`.
+const PIPELINE: Contract = Contract {
+    text: include_str!("contract/pipeline.sv"),
+    claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Room, 3)],
+    cut: &[Property::Held, Property::Counted, Property::Answered, Property::Room, Property::Reached],
+    ..NONE
+};
+
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 16] = [
+pub const CONTRACTS: [Contract; 17] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -230,6 +238,12 @@ pub const CONTRACTS: [Contract; 16] = [
         )],
         faults: &[fault(Property::Room, "bisector_queue", "{!held_q[3]} && {!held_q[4]}", "{!held_q[4]}")],
         ..NONE
+    },
+    Contract {
+        name: "reciprocal",
+        reach: 25,
+        faults: &[fault(Property::Room, "flow_17_of_32", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
     },
     Contract {
         name: "divider",

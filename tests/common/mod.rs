@@ -4,6 +4,7 @@
 use rayon::prelude::*;
 use relief_hdl::widths::WIDTH_SETS;
 use relief_testbench::binding::Binding;
+use relief_testbench::device::Stage;
 use relief_testbench::scoreboard::{Counts, Pattern, Scoreboard, Until};
 
 /// Compares `beats` random input beats of `block` with its golden model, bit for bit, at every width set, with and
@@ -24,4 +25,47 @@ pub fn matches_golden_everywhere(block: &dyn Binding, beats: u64) -> Vec<Counts>
         counts
     };
     runs.into_par_iter().enumerate().map(run).collect()
+}
+
+/// A block that sends one beat for each that it takes: the first result stands `latency` cycles behind its beat, and
+/// beats follow each other without a gap.
+#[allow(dead_code)]
+pub fn is_a_straight_pipeline(block: &dyn Binding, latency: usize) {
+    let (set, latency) = (&WIDTH_SETS[0], latency as u64);
+    assert_eq!((block.latency(), block.interval()), (latency.to_string().as_str(), "1"));
+    for beats in [1, 2, 1000] {
+        let mut scoreboard = Scoreboard::new(block, set, block.random(set, 1), Pattern::NONE);
+        let counts = scoreboard.run(Until::Accepted(beats), &mut |_, _, _| Ok(())).unwrap();
+        assert_eq!((counts.checked, counts.cycles), (beats, beats + latency), "{}", block.name());
+    }
+}
+
+/// Whenever a reset comes to such a block, what was on its way is gone, and what comes next is right and in time.
+#[allow(dead_code)]
+pub fn reset_empties(block: &dyn Binding, latency: usize) {
+    let set = &WIDTH_SETS[0];
+    for before in 0..latency + 4 {
+        let mut stage = Stage::new(block.device(set));
+        let (mut beats, mut model) = (block.random(set, 3), block.model(set));
+        // The sink takes nothing from the middle on, so that the reset meets a second result that waits.
+        for cycle in 0..before {
+            stage.inputs[stage.layout.out_ready] = u64::from(cycle % 2 == 0);
+            stage.offer(&beats.next().unwrap());
+            stage.settle();
+            stage.device.edge();
+        }
+        stage.device.reset(1 + before % 2);
+        stage.inputs[stage.layout.out_ready] = 1;
+        let beat = beats.next().unwrap();
+        stage.offer(&beat);
+        for cycle in 0..=latency {
+            stage.settle();
+            assert_eq!(stage.sends(), cycle == latency, "{}: {before} cycles, then {cycle}", block.name());
+            stage.device.edge();
+            stage.withdraw();
+        }
+        let mut expected = Vec::new();
+        model.accept(&beat, &mut expected);
+        assert_eq!(stage.sent(), expected[0].words, "{} after {before} cycles", block.name());
+    }
 }
