@@ -11,6 +11,7 @@ pub mod ports;
 pub mod primitives;
 pub mod reciprocal;
 pub mod remesher;
+pub mod rsqrt;
 pub mod sat_average;
 pub mod sat_build;
 pub mod sat_fetch;

@@ -71,6 +71,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::sat_average::SatAverageBinding,
     &crate::bisector::BisectorBinding,
     &crate::reciprocal::ReciprocalBinding,
+    &crate::rsqrt::RsqrtBinding,
 ];
 
 /// The block of a name.

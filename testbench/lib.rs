@@ -35,6 +35,7 @@ pub mod reciprocal;
 pub mod remesh;
 pub mod remesher;
 pub mod replay;
+pub mod rsqrt;
 pub mod sat_average;
 pub mod sat_build;
 pub mod sat_fetch;

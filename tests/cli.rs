@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 12] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -25,6 +25,7 @@ const NAMES: [&str; 11] = [
     "sat_average",
     "bisector",
     "reciprocal",
+    "rsqrt",
 ];
 
 /// Exit code, stdout and stderr.
@@ -539,6 +540,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("sat_fetch_parallel", "2000"),
         ("sat_average", "500"),
         ("reciprocal", "1000"),
+        ("rsqrt", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
