@@ -6,6 +6,7 @@
 pub mod bisector;
 pub mod mip_build;
 pub mod mip_fetch;
+pub mod perspective_correct;
 pub mod pipeline;
 pub mod ports;
 pub mod primitives;

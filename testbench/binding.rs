@@ -72,6 +72,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::bisector::BisectorBinding,
     &crate::reciprocal::ReciprocalBinding,
     &crate::rsqrt::RsqrtBinding,
+    &crate::perspective_correct::PerspectiveCorrectBinding,
 ];
 
 /// The block of a name.

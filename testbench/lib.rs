@@ -29,6 +29,7 @@ pub mod method;
 pub mod mip_build;
 pub mod mip_fetch;
 pub mod output;
+pub mod perspective_correct;
 pub mod pipeline;
 pub mod probe;
 pub mod reciprocal;

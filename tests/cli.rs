@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 12] = [
+const NAMES: [&str; 13] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -26,6 +26,7 @@ const NAMES: [&str; 12] = [
     "bisector",
     "reciprocal",
     "rsqrt",
+    "perspective_correct",
 ];
 
 /// Exit code, stdout and stderr.
@@ -541,6 +542,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("sat_average", "500"),
         ("reciprocal", "1000"),
         ("rsqrt", "1000"),
+        ("perspective_correct", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));

@@ -121,7 +121,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 18] = [
+pub const CONTRACTS: [Contract; 19] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -249,6 +249,12 @@ pub const CONTRACTS: [Contract; 18] = [
         name: "rsqrt",
         reach: 32,
         faults: &[fault(Property::Room, "flow_24_of_32", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "perspective_correct",
+        reach: 44,
+        faults: &[fault(Property::Room, "flow_36_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
