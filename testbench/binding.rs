@@ -73,6 +73,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::reciprocal::ReciprocalBinding,
     &crate::rsqrt::RsqrtBinding,
     &crate::perspective_correct::PerspectiveCorrectBinding,
+    &crate::filter_level::FilterLevelBinding,
 ];
 
 /// The block of a name.

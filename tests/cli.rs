@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 13] = [
+const NAMES: [&str; 14] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -27,6 +27,7 @@ const NAMES: [&str; 13] = [
     "reciprocal",
     "rsqrt",
     "perspective_correct",
+    "filter_level",
 ];
 
 /// Exit code, stdout and stderr.
@@ -543,6 +544,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("reciprocal", "1000"),
         ("rsqrt", "1000"),
         ("perspective_correct", "1000"),
+        ("filter_level", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));

@@ -121,7 +121,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 19] = [
+pub const CONTRACTS: [Contract; 20] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -255,6 +255,12 @@ pub const CONTRACTS: [Contract; 19] = [
         name: "perspective_correct",
         reach: 44,
         faults: &[fault(Property::Room, "flow_36_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "filter_level",
+        reach: 67,
+        faults: &[fault(Property::Room, "flow_59_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
