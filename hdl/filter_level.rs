@@ -6,7 +6,7 @@
 //! level = max(0, k - 1), at most the last
 //! ```
 //!
-//! | port          | format     | meaning |   Latency 60, interval 1
+//! | port          | format     | meaning |   Latency 65, interval 1
 //! | in_density    | SQ0.31     | lane rho c, of 1024 density units; below 0 counts as 0
 //! | in_c          | SQ0.31     | lane c; below 1 unit counts as 1 unit
 //! | in_scale, in_shift | unsigned 24, 6 | z0 s cell in density units: scale 2^-shift
@@ -18,15 +18,15 @@
 //!
 //! | stage           | operation                               | width |
 //! | s1 .. s22       | lanes to at least 0 and 1; reciprocal of c | UQ0.32 |
-//! | s23 .. s30      | rho c times reciprocal, shifted by 53 - zeros | 57 bits |
-//! | s31_density     | A = rho                                 | saturates at 38 bits: c is below 2^20 then, and A / c has 49 |
-//! | s32 .. s40      | A times reciprocal, shifted by 48 - zeros | 70 bits |
-//! | s41_over_c      | B = rho / c                             | saturates at 48 bits |
-//! | s42 .. s50      | B scale, shifted by `shift`             | 72 bits |
-//! | s51_footprint   | F                                       | saturates at 32 bits |
-//! | s52 .. s56      | its leading zeros and mantissa          | |
-//! | s57, s58_level  | k - 1 of length and mantissa            | 0 ..= 15 |
-//! | s59_level       | at most the last                        | unsigned 4 |
+//! | s23 .. s31      | rho c times reciprocal, shifted by 53 - zeros | 57 bits |
+//! | s32_density     | A = rho                                 | saturates at 38 bits: c is below 2^20 then, and A / c has 49 |
+//! | s33 .. s43      | A times reciprocal, shifted by 48 - zeros | 70 bits |
+//! | s44_over_c      | B = rho / c                             | saturates at 48 bits |
+//! | s45 .. s55      | B scale, shifted by `shift`             | 72 bits |
+//! | s56_footprint   | F                                       | saturates at 32 bits |
+//! | s57 .. s61      | its leading zeros and mantissa          | |
+//! | s62, s63_level  | k - 1 of length and mantissa            | 0 ..= 15 |
+//! | s64_level       | at most the last                        | unsigned 4 |
 //!
 //! Example: rho = 200, z s cell = 0.01: F = 2.0, k = 1, level 0; at F = 3.0, k = 2 and level 1.
 
@@ -57,29 +57,29 @@ pub struct FilterLevel {
     s1_shift: DataRegister<U<6>>,
     s1_last: DataRegister<U<5>>,
     s22_lane: LongDelay<31, 7, 7, 7>,
-    s27_density: Product2x2<32, 33, 64>,
-    s27_amount: Delay<6, 5>,
-    s30_density: ShiftRight<64>,
-    s31_density: DataRegister<U<38>>,
-    s31_reciprocal: Delay<32, 9>,
-    s37_over_c: Product3x2<39, 33, 72>,
-    s37_amount: Delay<6, 15>,
-    s40_over_c: ShiftRight<72>,
-    s41_over_c: DataRegister<U<48>>,
-    s41_scale: LongDelay<24, 12, 14, 14>,
-    s47_footprint: Product3x2<49, 25, 74>,
-    s47_shift: LongDelay<6, 14, 16, 16>,
-    s50_footprint: ShiftRight<74>,
-    s51_footprint: DataRegister<U<32>>,
-    s56_leading: Leading,
-    s57_small: DataRegister<Bit>,
-    s57_reaches: DataRegister<Bit>,
-    s57_octave: DataRegister<U<5>>,
-    s58_level: DataRegister<U<5>>,
+    s28_density: Product2x2<32, 33, 64>,
+    s28_amount: Delay<6, 6>,
+    s31_density: ShiftRight<64>,
+    s32_density: DataRegister<U<38>>,
+    s32_reciprocal: Delay<32, 10>,
+    s40_over_c: Product3x2<39, 33, 72>,
+    s40_amount: LongDelay<6, 6, 6, 6>,
+    s43_over_c: ShiftRight<72>,
+    s44_over_c: DataRegister<U<48>>,
+    s44_scale: LongDelay<24, 13, 15, 15>,
+    s52_footprint: Product3x2<49, 25, 74>,
+    s52_shift: LongDelay<6, 17, 17, 17>,
+    s55_footprint: ShiftRight<74>,
+    s56_footprint: DataRegister<U<32>>,
+    s61_leading: Leading,
+    s62_small: DataRegister<Bit>,
+    s62_reaches: DataRegister<Bit>,
+    s62_octave: DataRegister<U<5>>,
+    s63_level: DataRegister<U<5>>,
     s18_last: Delay<5, 17>,
-    s58_last: LongDelay<5, 12, 14, 14>,
-    s59_level: DataRegister<U<5>>,
-    s59_footprint: Delay<32, 8>,
+    s63_last: LongDelay<5, 15, 15, 15>,
+    s64_level: DataRegister<U<5>>,
+    s64_footprint: Delay<32, 8>,
     flow: Flow<{ FilterLevel::STAGES }, 36>,
     go: Wire<Bit>,
     most_density: Constant<U<38>>,
@@ -110,29 +110,29 @@ impl Default for FilterLevel {
             s1_shift: DataRegister::default(),
             s1_last: DataRegister::default(),
             s22_lane: LongDelay::default(),
-            s27_density: Product2x2::default(),
-            s27_amount: Delay::default(),
-            s30_density: ShiftRight::default(),
-            s31_density: DataRegister::default(),
-            s31_reciprocal: Delay::default(),
-            s37_over_c: Product3x2::default(),
-            s37_amount: Delay::default(),
-            s40_over_c: ShiftRight::default(),
-            s41_over_c: DataRegister::default(),
-            s41_scale: LongDelay::default(),
-            s47_footprint: Product3x2::default(),
-            s47_shift: LongDelay::default(),
-            s50_footprint: ShiftRight::default(),
-            s51_footprint: DataRegister::default(),
-            s56_leading: Leading::default(),
-            s57_small: DataRegister::default(),
-            s57_reaches: DataRegister::default(),
-            s57_octave: DataRegister::default(),
-            s58_level: DataRegister::default(),
+            s28_density: Product2x2::default(),
+            s28_amount: Delay::default(),
+            s31_density: ShiftRight::default(),
+            s32_density: DataRegister::default(),
+            s32_reciprocal: Delay::default(),
+            s40_over_c: Product3x2::default(),
+            s40_amount: LongDelay::default(),
+            s43_over_c: ShiftRight::default(),
+            s44_over_c: DataRegister::default(),
+            s44_scale: LongDelay::default(),
+            s52_footprint: Product3x2::default(),
+            s52_shift: LongDelay::default(),
+            s55_footprint: ShiftRight::default(),
+            s56_footprint: DataRegister::default(),
+            s61_leading: Leading::default(),
+            s62_small: DataRegister::default(),
+            s62_reaches: DataRegister::default(),
+            s62_octave: DataRegister::default(),
+            s63_level: DataRegister::default(),
             s18_last: Delay::default(),
-            s58_last: LongDelay::default(),
-            s59_level: DataRegister::default(),
-            s59_footprint: Delay::default(),
+            s63_last: LongDelay::default(),
+            s64_level: DataRegister::default(),
+            s64_footprint: Delay::default(),
             flow: Flow::default(),
             go: Wire::default(),
             most_density: Constant::new(U::MAX),
@@ -144,7 +144,7 @@ impl Default for FilterLevel {
 }
 
 impl FilterLevel {
-    const STAGES: usize = 59;
+    const STAGES: usize = 64;
     /// Cycles from vertex to level.
     pub const LATENCY: usize = Self::STAGES + 1;
 }
@@ -152,11 +152,11 @@ impl FilterLevel {
 impl Logic for FilterLevel {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, inverse, s22_lane, s27_density, s27_amount, s30_density, s31_reciprocal, s37_over_c);
-        clock!(self, clock, s37_amount, s40_over_c, s41_scale, s47_footprint, s47_shift, s50_footprint, s56_leading);
-        clock!(self, clock, s18_last, s58_last, s59_footprint, flow);
-        dff_setup!(self, clock, s1_lane, s1_scale, s1_shift, s1_last, s31_density, s41_over_c, s51_footprint);
-        dff_setup!(self, clock, s57_small, s57_reaches, s57_octave, s58_level, s59_level);
+        clock!(self, clock, inverse, s22_lane, s28_density, s28_amount, s31_density, s32_reciprocal, s40_over_c);
+        clock!(self, clock, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s61_leading);
+        clock!(self, clock, s18_last, s63_last, s64_footprint, flow);
+        dff_setup!(self, clock, s1_lane, s1_scale, s1_shift, s1_last, s32_density, s44_over_c, s56_footprint);
+        dff_setup!(self, clock, s62_small, s62_reaches, s62_octave, s63_level, s64_level);
         self.go.next = self.flow.go.val();
         self.flow.in_valid.next = self.in_valid.val();
         self.in_ready.next = self.go.val();
@@ -166,48 +166,48 @@ impl Logic for FilterLevel {
         self.s22_lane.value.next = self.s1_lane.q.val();
 
         // A
-        self.s27_density.go.next = self.go.val();
-        self.s27_density.a.next = bit_cast_to::<S<32>>(self.s22_lane.delayed.val());
-        self.s27_density.b.next = bit_cast_to::<S<33>>(self.inverse.reciprocal.val());
-        self.s27_amount.go.next = self.go.val();
-        self.s27_amount.value.next = !self.inverse.zeros.val() - 10;
-        self.s30_density.go.next = self.go.val();
-        self.s30_density.value.next = self.s27_density.p.val();
-        self.s30_density.amount.next = self.s27_amount.delayed.val();
-        self.s31_reciprocal.go.next = self.go.val();
-        self.s31_reciprocal.value.next = self.inverse.reciprocal.val();
+        self.s28_density.go.next = self.go.val();
+        self.s28_density.a.next = bit_cast_to::<S<32>>(self.s22_lane.delayed.val());
+        self.s28_density.b.next = bit_cast_to::<S<33>>(self.inverse.reciprocal.val());
+        self.s28_amount.go.next = self.go.val();
+        self.s28_amount.value.next = !self.inverse.zeros.val() - 10;
+        self.s31_density.go.next = self.go.val();
+        self.s31_density.value.next = self.s28_density.p.val();
+        self.s31_density.amount.next = self.s28_amount.delayed.val();
+        self.s32_reciprocal.go.next = self.go.val();
+        self.s32_reciprocal.value.next = self.inverse.reciprocal.val();
 
         // B
-        self.s37_over_c.go.next = self.go.val();
-        self.s37_over_c.a.next = bit_cast_to::<S<39>>(self.s31_density.q.val());
-        self.s37_over_c.b.next = bit_cast_to::<S<33>>(self.s31_reciprocal.delayed.val());
-        self.s37_amount.go.next = self.go.val();
-        self.s37_amount.value.next = !self.inverse.zeros.val() - 15;
         self.s40_over_c.go.next = self.go.val();
-        self.s40_over_c.value.next = self.s37_over_c.p.val();
-        self.s40_over_c.amount.next = self.s37_amount.delayed.val();
-        self.s41_scale.go.next = self.go.val();
-        self.s41_scale.value.next = self.s1_scale.q.val();
+        self.s40_over_c.a.next = bit_cast_to::<S<39>>(self.s32_density.q.val());
+        self.s40_over_c.b.next = bit_cast_to::<S<33>>(self.s32_reciprocal.delayed.val());
+        self.s40_amount.go.next = self.go.val();
+        self.s40_amount.value.next = !self.inverse.zeros.val() - 15;
+        self.s43_over_c.go.next = self.go.val();
+        self.s43_over_c.value.next = self.s40_over_c.p.val();
+        self.s43_over_c.amount.next = self.s40_amount.delayed.val();
+        self.s44_scale.go.next = self.go.val();
+        self.s44_scale.value.next = self.s1_scale.q.val();
 
         // F
-        self.s47_footprint.go.next = self.go.val();
-        self.s47_footprint.a.next = bit_cast_to::<S<49>>(self.s41_over_c.q.val());
-        self.s47_footprint.b.next = bit_cast_to::<S<25>>(self.s41_scale.delayed.val());
-        self.s47_shift.go.next = self.go.val();
-        self.s47_shift.value.next = self.s1_shift.q.val();
-        self.s50_footprint.go.next = self.go.val();
-        self.s50_footprint.value.next = self.s47_footprint.p.val();
-        self.s50_footprint.amount.next = self.s47_shift.delayed.val();
+        self.s52_footprint.go.next = self.go.val();
+        self.s52_footprint.a.next = bit_cast_to::<S<49>>(self.s44_over_c.q.val());
+        self.s52_footprint.b.next = bit_cast_to::<S<25>>(self.s44_scale.delayed.val());
+        self.s52_shift.go.next = self.go.val();
+        self.s52_shift.value.next = self.s1_shift.q.val();
+        self.s55_footprint.go.next = self.go.val();
+        self.s55_footprint.value.next = self.s52_footprint.p.val();
+        self.s55_footprint.amount.next = self.s52_shift.delayed.val();
 
         // The level: of a footprint of 17 to 32 bits, 31 - zeros counts 0 to 15.
-        self.s56_leading.go.next = self.go.val();
-        self.s56_leading.value.next = bit_cast_to::<U<48>>(self.s51_footprint.q.val());
-        self.s58_last.go.next = self.go.val();
-        self.s58_last.value.next = self.s18_last.delayed.val();
+        self.s61_leading.go.next = self.go.val();
+        self.s61_leading.value.next = bit_cast_to::<U<48>>(self.s56_footprint.q.val());
+        self.s63_last.go.next = self.go.val();
+        self.s63_last.value.next = self.s18_last.delayed.val();
         self.s18_last.go.next = self.go.val();
         self.s18_last.value.next = self.s1_last.q.val();
-        self.s59_footprint.go.next = self.go.val();
-        self.s59_footprint.value.next = self.s51_footprint.q.val();
+        self.s64_footprint.go.next = self.go.val();
+        self.s64_footprint.value.next = self.s56_footprint.q.val();
 
         if self.go.val() {
             self.s1_lane.d.next = bit_cast_to::<U<31>>(self.in_density.val());
@@ -217,35 +217,35 @@ impl Logic for FilterLevel {
             self.s1_scale.d.next = self.in_scale.val();
             self.s1_shift.d.next = self.in_shift.val();
             self.s1_last.d.next = self.in_levels.val() - 1;
-            self.s31_density.d.next = self.s30_density.shifted.val().get_bits::<38>(0);
-            if self.s30_density.shifted.val().get_bits::<26>(38).any() {
-                self.s31_density.d.next = self.most_density.val();
+            self.s32_density.d.next = self.s31_density.shifted.val().get_bits::<38>(0);
+            if self.s31_density.shifted.val().get_bits::<26>(38).any() {
+                self.s32_density.d.next = self.most_density.val();
             }
-            self.s41_over_c.d.next = self.s40_over_c.shifted.val().get_bits::<48>(0);
-            if self.s40_over_c.shifted.val().get_bits::<24>(48).any() {
-                self.s41_over_c.d.next = self.most_over_c.val();
+            self.s44_over_c.d.next = self.s43_over_c.shifted.val().get_bits::<48>(0);
+            if self.s43_over_c.shifted.val().get_bits::<24>(48).any() {
+                self.s44_over_c.d.next = self.most_over_c.val();
             }
-            self.s51_footprint.d.next = self.s50_footprint.shifted.val().get_bits::<32>(0);
-            if self.s50_footprint.shifted.val().get_bits::<42>(32).any() {
-                self.s51_footprint.d.next = self.most_footprint.val();
+            self.s56_footprint.d.next = self.s55_footprint.shifted.val().get_bits::<32>(0);
+            if self.s55_footprint.shifted.val().get_bits::<42>(32).any() {
+                self.s56_footprint.d.next = self.most_footprint.val();
             }
-            self.s57_small.d.next = self.s56_leading.zeros.val().get_bit(5);
-            self.s57_octave.d.next = !bit_cast_to::<U<5>>(self.s56_leading.zeros.val());
-            self.s57_reaches.d.next = self.s56_leading.mantissa.val().get_bits::<24>(8) >= self.root_of_two.val();
-            self.s58_level.d.next = self.s57_octave.q.val();
-            if self.s57_small.q.val() {
-                self.s58_level.d.next = 0.into();
-            } else if !self.s57_reaches.q.val() && self.s57_octave.q.val().any() {
-                self.s58_level.d.next = self.s57_octave.q.val() - 1;
+            self.s62_small.d.next = self.s61_leading.zeros.val().get_bit(5);
+            self.s62_octave.d.next = !bit_cast_to::<U<5>>(self.s61_leading.zeros.val());
+            self.s62_reaches.d.next = self.s61_leading.mantissa.val().get_bits::<24>(8) >= self.root_of_two.val();
+            self.s63_level.d.next = self.s62_octave.q.val();
+            if self.s62_small.q.val() {
+                self.s63_level.d.next = 0.into();
+            } else if !self.s62_reaches.q.val() && self.s62_octave.q.val().any() {
+                self.s63_level.d.next = self.s62_octave.q.val() - 1;
             }
-            self.s59_level.d.next = self.s58_level.q.val();
-            if self.s58_level.q.val() > self.s58_last.delayed.val() {
-                self.s59_level.d.next = self.s58_last.delayed.val();
+            self.s64_level.d.next = self.s63_level.q.val();
+            if self.s63_level.q.val() > self.s63_last.delayed.val() {
+                self.s64_level.d.next = self.s63_last.delayed.val();
             }
         }
 
-        self.flow.value.next = bit_cast_to::<WideU<36>>(self.s59_level.q.val())
-            | (bit_cast_to::<WideU<36>>(self.s59_footprint.delayed.val()) << 4);
+        self.flow.value.next = bit_cast_to::<WideU<36>>(self.s64_level.q.val())
+            | (bit_cast_to::<WideU<36>>(self.s64_footprint.delayed.val()) << 4);
         self.flow.out_ready.next = self.out_ready.val();
         self.out_valid.next = self.flow.out_valid.val();
         self.out_level.next = self.flow.out_value.val().get_bits::<4>(0);
@@ -261,7 +261,7 @@ ports! {
     [] FilterLevel {
         inputs: in_valid, in_density, in_c, in_scale, in_shift, in_levels, out_ready;
         outputs: in_ready, out_valid, out_level, out_footprint;
-        blocks: inverse, s22_lane, s27_density, s27_amount, s30_density, s31_reciprocal, s37_over_c, s37_amount, s40_over_c, s41_scale, s47_footprint, s47_shift, s50_footprint, s56_leading, s18_last, s58_last, s59_footprint, flow;
-        state: inverse, s1_lane, s1_scale, s1_shift, s1_last, s22_lane, s27_density, s27_amount, s30_density, s31_density, s31_reciprocal, s37_over_c, s37_amount, s40_over_c, s41_over_c, s41_scale, s47_footprint, s47_shift, s50_footprint, s51_footprint, s56_leading, s57_small, s57_reaches, s57_octave, s58_level, s18_last, s58_last, s59_level, s59_footprint, flow
+        blocks: inverse, s22_lane, s28_density, s28_amount, s31_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s61_leading, s18_last, s63_last, s64_footprint, flow;
+        state: inverse, s1_lane, s1_scale, s1_shift, s1_last, s22_lane, s28_density, s28_amount, s31_density, s32_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s56_footprint, s61_leading, s62_small, s62_reaches, s62_octave, s63_level, s18_last, s63_last, s64_level, s64_footprint, flow
     }
 }

@@ -7,7 +7,7 @@
 //! clamp:  |u| <= 2^-6 : u = 0;   u >= size - 1 - 2^-6 : u = size - 1
 //! ```
 //!
-//! | port                | format     | meaning |   Latency 37, interval 1
+//! | port                | format     | meaning |   Latency 38, interval 1
 //! | in_u, in_v          | SQ0.31     | lanes u c and v c, of 2^texel_bits texels; below 0 counts as 0
 //! | in_c                | SQ0.31     | lane c; below 1 unit counts as 1 unit
 //! | in_width, in_height | unsigned 14 | texels of level 0, 1 ..= 8192

@@ -69,7 +69,7 @@ impl Binding for FilterLevelBinding {
         "filter level and footprint of a vertex from the density of texels there"
     }
     fn latency(&self) -> &'static str {
-        "60"
+        "65"
     }
     fn interval(&self) -> &'static str {
         "1"

@@ -78,7 +78,7 @@ impl Binding for PerspectiveCorrectBinding {
         "texel coordinates of a vertex: the division by c, and the snap that closes seams"
     }
     fn latency(&self) -> &'static str {
-        "37"
+        "38"
     }
     fn interval(&self) -> &'static str {
         "1"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One coordinate: lane times reciprocal, rounded, and snapped to the ends of its axis.
 //!
-//! | stage            | operation                             | width    |   Latency 14, interval 1; holds while `go` is low
-//! | s1 .. s5_product | lane reciprocal                       | 63 bits |
-//! | s6 .. s8_shift   | all of its shift but one              | by 62 - zeros - texel_bits, 0 ..= 44 |
-//! | s9_low           | 32 bits, and whether there are more   | more is beyond any size |
-//! | s10_texel        | one more bit, rounded half up         | at most 2^31, signed 34 |
-//! | s11, s12_texel   | a period off, twice, where it repeats | from -2^10 on |
-//! | s13_texel        | what is still at the end or beyond it | below the period, or size - 1 |
-//! | s14_texel        | what is near 0 is 0                   | UQ13.16: a size is at most 2^13 texels |
+//! | stage            | operation                             | width    |   Latency 15, interval 1; holds while `go` is low
+//! | s1 .. s6_product | lane reciprocal                       | 63 bits |
+//! | s7 .. s9_shift   | all of its shift but one              | by 62 - zeros - texel_bits, 0 ..= 44 |
+//! | s10_low           | 32 bits, and whether there are more   | more is beyond any size |
+//! | s11_texel        | one more bit, rounded half up         | at most 2^31, signed 34 |
+//! | s12, s13_texel   | a period off, twice, where it repeats | from -2^10 on |
+//! | s14_texel        | what is still at the end or beyond it | below the period, or size - 1 |
+//! | s15_texel        | what is near 0 is 0                   | UQ13.16: a size is at most 2^13 texels |
 //!
 //! A texel is taken off or clamped from `bound` on: size - 2^-6 where the axis repeats, size - 1 - 2^-6 where it does not.
 //! Three periods are below 2^31, so it does not matter what a quotient beyond 32 bits becomes.
@@ -33,25 +33,25 @@ pub struct TexelAxis {
     pub texel_bits: Input<U<4>>,
     pub texel: Output<U<29>>,
     product: Product2x2<32, 33, 64>,
-    s5_amount: Delay<6, 5>,
+    s6_amount: Delay<6, 6>,
     shift: ShiftRight<64>,
-    s9_low: DataRegister<U<32>>,
-    s9_beyond: DataRegister<Bit>,
+    s10_low: DataRegister<U<32>>,
+    s10_beyond: DataRegister<Bit>,
     /// Size, repeat << 14.
-    s9_axis: Delay<15, 9>,
-    s10_texel: DataRegister<S<34>>,
-    s10_size: DataRegister<S<34>>,
-    s10_bound: DataRegister<S<34>>,
-    s10_repeat: DataRegister<Bit>,
+    s10_axis: Delay<15, 10>,
     s11_texel: DataRegister<S<34>>,
     s11_size: DataRegister<S<34>>,
     s11_bound: DataRegister<S<34>>,
     s11_repeat: DataRegister<Bit>,
     s12_texel: DataRegister<S<34>>,
+    s12_size: DataRegister<S<34>>,
     s12_bound: DataRegister<S<34>>,
     s12_repeat: DataRegister<Bit>,
     s13_texel: DataRegister<S<34>>,
-    s14_texel: DataRegister<U<29>>,
+    s13_bound: DataRegister<S<34>>,
+    s13_repeat: DataRegister<Bit>,
+    s14_texel: DataRegister<S<34>>,
+    s15_texel: DataRegister<U<29>>,
     doubled: Wire<U<33>>,
     size_16: Wire<S<34>>,
     snap: Constant<S<34>>,
@@ -72,24 +72,24 @@ impl Default for TexelAxis {
             texel_bits: Input::default(),
             texel: Output::default(),
             product: Product2x2::default(),
-            s5_amount: Delay::default(),
+            s6_amount: Delay::default(),
             shift: ShiftRight::default(),
-            s9_low: DataRegister::default(),
-            s9_beyond: DataRegister::default(),
-            s9_axis: Delay::default(),
-            s10_texel: DataRegister::default(),
-            s10_size: DataRegister::default(),
-            s10_bound: DataRegister::default(),
-            s10_repeat: DataRegister::default(),
+            s10_low: DataRegister::default(),
+            s10_beyond: DataRegister::default(),
+            s10_axis: Delay::default(),
             s11_texel: DataRegister::default(),
             s11_size: DataRegister::default(),
             s11_bound: DataRegister::default(),
             s11_repeat: DataRegister::default(),
             s12_texel: DataRegister::default(),
+            s12_size: DataRegister::default(),
             s12_bound: DataRegister::default(),
             s12_repeat: DataRegister::default(),
             s13_texel: DataRegister::default(),
+            s13_bound: DataRegister::default(),
+            s13_repeat: DataRegister::default(),
             s14_texel: DataRegister::default(),
+            s15_texel: DataRegister::default(),
             doubled: Wire::default(),
             size_16: Wire::default(),
             snap: Constant::new(S::new(1 << 10)),
@@ -107,67 +107,67 @@ impl TexelAxis {
 impl Logic for TexelAxis {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, product, s5_amount, shift, s9_axis);
-        dff_setup!(self, clock, s9_low, s9_beyond, s10_texel, s10_size, s10_bound);
+        clock!(self, clock, product, s6_amount, shift, s10_axis);
+        dff_setup!(self, clock, s10_low, s10_beyond, s11_texel, s11_size, s11_bound);
         dff_setup!(
-            self, clock, s10_repeat, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_bound, s12_repeat
+            self, clock, s11_repeat, s12_texel, s12_size, s12_bound, s12_repeat, s13_texel, s13_bound, s13_repeat
         );
-        dff_setup!(self, clock, s13_texel, s14_texel);
-        self.texel.next = self.s14_texel.q.val();
+        dff_setup!(self, clock, s14_texel, s15_texel);
+        self.texel.next = self.s15_texel.q.val();
 
         self.product.go.next = self.go.val();
         self.product.a.next = bit_cast_to::<S<32>>(self.lane.val());
         self.product.b.next = bit_cast_to::<S<33>>(self.reciprocal.val());
-        self.s5_amount.go.next = self.go.val();
-        self.s5_amount.value.next = !self.zeros.val() - bit_cast_to::<U<6>>(self.texel_bits.val()) - 1;
+        self.s6_amount.go.next = self.go.val();
+        self.s6_amount.value.next = !self.zeros.val() - bit_cast_to::<U<6>>(self.texel_bits.val()) - 1;
         self.shift.go.next = self.go.val();
         self.shift.value.next = self.product.p.val();
-        self.shift.amount.next = self.s5_amount.delayed.val();
-        self.s9_axis.go.next = self.go.val();
-        self.s9_axis.value.next =
+        self.shift.amount.next = self.s6_amount.delayed.val();
+        self.s10_axis.go.next = self.go.val();
+        self.s10_axis.value.next =
             bit_cast_to::<U<15>>(self.size.val()) | (bit_cast_to::<U<15>>(self.repeats.val()) << 14);
 
-        // s10
-        self.doubled.next = bit_cast_to::<U<33>>(self.s9_low.q.val()) + 1;
-        self.size_16.next = bit_cast_to::<S<34>>(self.s9_axis.delayed.val().get_bits::<14>(0)) << 16;
+        // s11
+        self.doubled.next = bit_cast_to::<U<33>>(self.s10_low.q.val()) + 1;
+        self.size_16.next = bit_cast_to::<S<34>>(self.s10_axis.delayed.val().get_bits::<14>(0)) << 16;
 
         if self.go.val() {
-            self.s9_low.d.next = self.shift.shifted.val().get_bits::<32>(0);
-            self.s9_beyond.d.next = self.shift.shifted.val().get_bits::<31>(32).any();
-            self.s10_texel.d.next = bit_cast_to::<S<34>>(self.doubled.val() >> 1);
-            if self.s9_beyond.q.val() {
-                self.s10_texel.d.next = self.most.val();
+            self.s10_low.d.next = self.shift.shifted.val().get_bits::<32>(0);
+            self.s10_beyond.d.next = self.shift.shifted.val().get_bits::<31>(32).any();
+            self.s11_texel.d.next = bit_cast_to::<S<34>>(self.doubled.val() >> 1);
+            if self.s10_beyond.q.val() {
+                self.s11_texel.d.next = self.most.val();
             }
-            self.s10_size.d.next = self.size_16.val();
-            self.s10_repeat.d.next = self.s9_axis.delayed.val().get_bit(14);
-            self.s10_bound.d.next = self.size_16.val() - self.whole.val() - self.snap.val();
-            if self.s9_axis.delayed.val().get_bit(14) {
-                self.s10_bound.d.next = self.size_16.val() - self.snap.val();
+            self.s11_size.d.next = self.size_16.val();
+            self.s11_repeat.d.next = self.s10_axis.delayed.val().get_bit(14);
+            self.s11_bound.d.next = self.size_16.val() - self.whole.val() - self.snap.val();
+            if self.s10_axis.delayed.val().get_bit(14) {
+                self.s11_bound.d.next = self.size_16.val() - self.snap.val();
             }
-            self.s11_texel.d.next = self.s10_texel.q.val();
-            if self.s10_repeat.q.val() && self.s10_texel.q.val() >= self.s10_bound.q.val() {
-                self.s11_texel.d.next = self.s10_texel.q.val() - self.s10_size.q.val();
-            }
-            self.s11_size.d.next = self.s10_size.q.val();
-            self.s11_bound.d.next = self.s10_bound.q.val();
-            self.s11_repeat.d.next = self.s10_repeat.q.val();
             self.s12_texel.d.next = self.s11_texel.q.val();
             if self.s11_repeat.q.val() && self.s11_texel.q.val() >= self.s11_bound.q.val() {
                 self.s12_texel.d.next = self.s11_texel.q.val() - self.s11_size.q.val();
             }
+            self.s12_size.d.next = self.s11_size.q.val();
             self.s12_bound.d.next = self.s11_bound.q.val();
             self.s12_repeat.d.next = self.s11_repeat.q.val();
             self.s13_texel.d.next = self.s12_texel.q.val();
-            if self.s12_texel.q.val() >= self.s12_bound.q.val() {
-                if self.s12_repeat.q.val() {
-                    self.s13_texel.d.next = self.s12_bound.q.val() - 1;
+            if self.s12_repeat.q.val() && self.s12_texel.q.val() >= self.s12_bound.q.val() {
+                self.s13_texel.d.next = self.s12_texel.q.val() - self.s12_size.q.val();
+            }
+            self.s13_bound.d.next = self.s12_bound.q.val();
+            self.s13_repeat.d.next = self.s12_repeat.q.val();
+            self.s14_texel.d.next = self.s13_texel.q.val();
+            if self.s13_texel.q.val() >= self.s13_bound.q.val() {
+                if self.s13_repeat.q.val() {
+                    self.s14_texel.d.next = self.s13_bound.q.val() - 1;
                 } else {
-                    self.s13_texel.d.next = self.s12_bound.q.val() + self.snap.val();
+                    self.s14_texel.d.next = self.s13_bound.q.val() + self.snap.val();
                 }
             }
-            self.s14_texel.d.next = bit_cast_to::<U<29>>(self.s13_texel.q.val());
-            if self.s13_texel.q.val() <= self.snap.val() {
-                self.s14_texel.d.next = 0.into();
+            self.s15_texel.d.next = bit_cast_to::<U<29>>(self.s14_texel.q.val());
+            if self.s14_texel.q.val() <= self.snap.val() {
+                self.s15_texel.d.next = 0.into();
             }
         }
     }
@@ -177,4 +177,4 @@ impl Logic for TexelAxis {
     }
 }
 
-latches! { [] TexelAxis: product, s5_amount, shift, s9_low, s9_beyond, s9_axis, s10_texel, s10_size, s10_bound, s10_repeat, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_bound, s12_repeat, s13_texel, s14_texel }
+latches! { [] TexelAxis: product, s6_amount, shift, s10_low, s10_beyond, s10_axis, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_size, s12_bound, s12_repeat, s13_texel, s13_bound, s13_repeat, s14_texel, s15_texel }

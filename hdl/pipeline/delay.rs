@@ -9,7 +9,7 @@
 
 use crate::prelude::*;
 
-/// Delay of values of `W` bits by `N` cycles, 3 <= N <= 17.
+/// Delay of values of `W` bits by `N` cycles, 4 <= N <= 17.
 #[derive(Clone, Debug, LogicBlock)]
 #[allow(missing_docs)]
 pub struct Delay<const W: usize, const N: usize> {

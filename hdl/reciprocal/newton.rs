@@ -34,7 +34,9 @@ pub struct Newton {
     s2_h: DataRegister<U<11>>,
     s6_m: Delay<31, 6>,
     s5_fall: DspProduct<14, 12, 26>,
-    s5_start: Delay<20, 3>,
+    s3_start: DataRegister<U<20>>,
+    s4_start: DataRegister<U<20>>,
+    s5_start: DataRegister<U<20>>,
     s6_seed: DataRegister<U<20>>,
     s9_low: DspProduct<18, 18, 36>,
     s9_high: DspProduct<16, 18, 34>,
@@ -78,8 +80,23 @@ impl Newton {
 impl Logic for Newton {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, lines, s6_m, s5_fall, s5_start, s9_low, s9_high, s11_seed, s14_low, s15_seed);
-        dff_setup!(self, clock, s1_h, s2_h, s6_seed, s7_upper, s8_upper, s9_upper, s10_product, s10_exact, s11_error);
+        clock!(self, clock, lines, s6_m, s5_fall, s9_low, s9_high, s11_seed, s14_low, s15_seed);
+        dff_setup!(
+            self,
+            clock,
+            s1_h,
+            s2_h,
+            s3_start,
+            s4_start,
+            s5_start,
+            s6_seed,
+            s7_upper,
+            s8_upper,
+            s9_upper,
+            s10_product,
+            s10_exact,
+            s11_error
+        );
         dff_setup!(self, clock, s12_high, s12_upper, s13_upper, s14_upper, s15_step, s16_sum);
         self.reciprocal.next = self.s16_sum.q.val();
 
@@ -91,8 +108,6 @@ impl Logic for Newton {
         self.s5_fall.a.next = bit_cast_to::<S<14>>(self.lines.fall.val());
         self.s5_fall.b.next = bit_cast_to::<S<12>>(self.s2_h.q.val());
 
-        self.s5_start.go.next = self.go.val();
-        self.s5_start.value.next = self.lines.start.val();
         self.s11_seed.go.next = self.go.val();
         self.s11_seed.value.next = self.s6_seed.q.val();
         self.s15_seed.go.next = self.go.val();
@@ -159,7 +174,10 @@ impl Logic for Newton {
         if self.go.val() {
             self.s1_h.d.next = self.m.val().get_bits::<11>(13);
             self.s2_h.d.next = self.s1_h.q.val();
-            self.s6_seed.d.next = self.s5_start.delayed.val() - bit_cast_to::<U<20>>(self.s5_fall.p.val() >> 11);
+            self.s3_start.d.next = self.lines.start.val();
+            self.s4_start.d.next = self.s3_start.q.val();
+            self.s5_start.d.next = self.s4_start.q.val();
+            self.s6_seed.d.next = self.s5_start.q.val() - bit_cast_to::<U<20>>(self.s5_fall.p.val() >> 11);
             self.s7_upper.d.next = self.upper_1.val() + self.upper_2.val() + self.upper_4.val();
             self.s8_upper.d.next = self.s7_upper.q.val();
             self.s9_upper.d.next = self.s8_upper.q.val();
@@ -181,4 +199,4 @@ impl Logic for Newton {
     }
 }
 
-latches! { [] Newton: lines, s6_m, s5_fall, s5_start, s9_low, s9_high, s11_seed, s14_low, s15_seed, s1_h, s2_h, s6_seed, s7_upper, s8_upper, s9_upper, s10_product, s10_exact, s11_error, s12_high, s12_upper, s13_upper, s14_upper, s15_step, s16_sum }
+latches! { [] Newton: lines, s6_m, s5_fall, s3_start, s4_start, s5_start, s9_low, s9_high, s11_seed, s14_low, s15_seed, s1_h, s2_h, s6_seed, s7_upper, s8_upper, s9_upper, s10_product, s10_exact, s11_error, s12_high, s12_upper, s13_upper, s14_upper, s15_step, s16_sum }

@@ -37,7 +37,9 @@ pub struct InverseRoot {
     s3_h: DataRegister<U<11>>,
     s11_x: Delay<32, 11>,
     s6_fall: DspProduct<12, 12, 24>,
-    s6_start: Delay<18, 3>,
+    s4_start: DataRegister<U<18>>,
+    s5_start: DataRegister<U<18>>,
+    s6_start: DataRegister<U<18>>,
     s7_seed: DataRegister<U<18>>,
     s18_seed: Delay<18, 11>,
     s10_low: DspProduct<18, 18, 36>,
@@ -98,9 +100,8 @@ impl Logic for InverseRoot {
             self, clock, lines, s11_x, s18_seed, s22_seed, s6_fall, s6_start, s10_low, s14_00, s14_01, s14_10, s14_11
         );
         clock!(self, clock, s21_low, s21_high);
-        dff_setup!(
-            self, clock, s1_index, s1_h, s2_h, s3_h, s7_seed, s8_cross, s9_cross, s10_cross, s11_square, s12_upper
-        );
+        dff_setup!(self, clock, s1_index, s1_h, s2_h, s3_h, s4_start, s5_start, s6_start, s7_seed, s8_cross, s9_cross);
+        dff_setup!(self, clock, s10_cross, s11_square, s12_upper);
         dff_setup!(self, clock, s13_upper, s14_upper, s15_low, s15_middle, s15_upper, s16_middle, s16_upper, s16_exact);
         dff_setup!(self, clock, s17_product, s17_exact, s18_error, s19_upper, s20_upper, s21_upper, s22_step, s23_sum);
         self.root.next = self.s23_sum.q.val();
@@ -112,8 +113,6 @@ impl Logic for InverseRoot {
         self.s6_fall.go.next = self.go.val();
         self.s6_fall.a.next = bit_cast_to::<S<12>>(self.lines.fall.val());
         self.s6_fall.b.next = bit_cast_to::<S<12>>(self.s3_h.q.val());
-        self.s6_start.go.next = self.go.val();
-        self.s6_start.value.next = self.lines.start.val();
         self.s22_seed.go.next = self.go.val();
         self.s22_seed.value.next = self.s18_seed.delayed.val();
         self.s18_seed.go.next = self.go.val();
@@ -192,7 +191,10 @@ impl Logic for InverseRoot {
             }
             self.s2_h.d.next = self.s1_h.q.val();
             self.s3_h.d.next = self.s2_h.q.val();
-            self.s7_seed.d.next = self.s6_start.delayed.val() - bit_cast_to::<U<18>>(self.s6_fall.p.val() >> 11);
+            self.s4_start.d.next = self.lines.start.val();
+            self.s5_start.d.next = self.s4_start.q.val();
+            self.s6_start.d.next = self.s5_start.q.val();
+            self.s7_seed.d.next = self.s6_start.q.val() - bit_cast_to::<U<18>>(self.s6_fall.p.val() >> 11);
             self.s8_cross.d.next = self.above.val();
             self.s9_cross.d.next = self.s8_cross.q.val();
             self.s10_cross.d.next = self.s9_cross.q.val();
@@ -226,4 +228,4 @@ impl Logic for InverseRoot {
     }
 }
 
-latches! { [] InverseRoot: lines, s11_x, s18_seed, s22_seed, s6_fall, s6_start, s10_low, s14_00, s14_01, s14_10, s14_11, s21_low, s21_high, s1_index, s1_h, s2_h, s3_h, s7_seed, s8_cross, s9_cross, s10_cross, s11_square, s12_upper, s13_upper, s14_upper, s15_low, s15_middle, s15_upper, s16_middle, s16_upper, s16_exact, s17_product, s17_exact, s18_error, s19_upper, s20_upper, s21_upper, s22_step, s23_sum }
+latches! { [] InverseRoot: lines, s11_x, s18_seed, s22_seed, s6_fall, s4_start, s5_start, s6_start, s10_low, s14_00, s14_01, s14_10, s14_11, s21_low, s21_high, s1_index, s1_h, s2_h, s3_h, s7_seed, s8_cross, s9_cross, s10_cross, s11_square, s12_upper, s13_upper, s14_upper, s15_low, s15_middle, s15_upper, s16_middle, s16_upper, s16_exact, s17_product, s17_exact, s18_error, s19_upper, s20_upper, s21_upper, s22_step, s23_sum }

@@ -125,8 +125,8 @@ fn delay_is_as_long_as_it_says() {
             );
         };
     }
-    delay!(Delay<40, 3>, 3);
+    delay!(Delay<40, 5>, 5);
     delay!(Delay<40, 4>, 4);
     delay!(Delay<40, 17>, 17);
-    delay!(LongDelay<40, 3, 4, 17>, 24);
+    delay!(LongDelay<40, 4, 5, 17>, 26);
 }

@@ -253,14 +253,14 @@ pub const CONTRACTS: [Contract; 20] = [
     },
     Contract {
         name: "perspective_correct",
-        reach: 44,
-        faults: &[fault(Property::Room, "flow_36_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        reach: 45,
+        faults: &[fault(Property::Room, "flow_37_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
         name: "filter_level",
-        reach: 67,
-        faults: &[fault(Property::Room, "flow_59_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        reach: 72,
+        faults: &[fault(Property::Room, "flow_64_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
