@@ -80,8 +80,9 @@ pub fn golden(constants: &Constants, vertex: &Vertex, q: u32) -> Vertex {
     // 24 + 25 bits and sign.
     let s1_displacement = constants.minimum + ((q * constants.range) >> 16);
     let c = vertex[lane::C].max(1);
-    // 31 + 31 bits and sign; 33 - exponent is 18..=63.
-    let s2_delta_sq15_28 = ((s1_displacement * c) >> (33 - constants.exponent)).clamp(-(1 << 43), (1 << 43) - 1);
+    // 33 + 31 bits and sign; 33 - exponent is 18..=63.
+    let s2_delta = (i128::from(s1_displacement) * i128::from(c)) >> (33 - constants.exponent);
+    let s2_delta_sq15_28 = s2_delta.clamp(-(1 << 43), (1 << 43) - 1) as i64;
     let n = normalize([0, 1, 2].map(|k| vertex[lane::NORMAL + k])).map(i64::from);
     // 44 + 17 bits and sign.
     let s3_along_sq16_28 = n.map(|n| (s2_delta_sq15_28 * n) >> 16);

@@ -74,6 +74,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::rsqrt::RsqrtBinding,
     &crate::perspective_correct::PerspectiveCorrectBinding,
     &crate::filter_level::FilterLevelBinding,
+    &crate::displace::DisplaceBinding,
 ];
 
 /// The block of a name.

@@ -24,6 +24,7 @@ pub mod bisector;
 pub mod check;
 pub mod cosim;
 pub mod device;
+pub mod displace;
 pub mod filter_level;
 pub mod frame;
 pub mod method;

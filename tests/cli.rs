@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 14] = [
+const NAMES: [&str; 15] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -28,6 +28,7 @@ const NAMES: [&str; 14] = [
     "rsqrt",
     "perspective_correct",
     "filter_level",
+    "displace",
 ];
 
 /// Exit code, stdout and stderr.
@@ -545,6 +546,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("rsqrt", "1000"),
         ("perspective_correct", "1000"),
         ("filter_level", "1000"),
+        ("displace", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
@@ -610,14 +612,19 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
         let report = yosys_synth_ecp5(&emitted(*block, set, None)?.design)?;
         println!("{name}: {report}");
         assert_eq!(report.latches, Vec::<String>::new(), "{name}");
-        // Queues of eight or sixteen places, the sizes of sixteen levels, and what eight walkers left are all that is too
-        // small for block RAM.
+        // Queues of eight or sixteen places, the sizes of sixteen levels, what eight walkers left, and delay lines of up to
+        // sixteen words are all that is too small for block RAM.
         let distributed = match name {
             "strip_unit" => 54,
             "remesher" => 110,
             "mip_build" => 8,
             "mip_fetch" => 16,
             "bisector" => 110,
+            "reciprocal" => 23,
+            "rsqrt" => 23,
+            "perspective_correct" => 115,
+            "filter_level" => 105,
+            "displace" => 350,
             _ => 0,
         };
         assert!(report.distributed_rams <= distributed, "{name}: its memories belong into block RAM: {report}");

@@ -121,7 +121,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 20] = [
+pub const CONTRACTS: [Contract; 21] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -261,6 +261,12 @@ pub const CONTRACTS: [Contract; 20] = [
         name: "filter_level",
         reach: 72,
         faults: &[fault(Property::Room, "flow_64_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "displace",
+        reach: 94,
+        faults: &[fault(Property::Room, "flow_86_of_102", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
