@@ -81,22 +81,8 @@ impl Logic for Newton {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, lines, s6_m, s5_fall, s9_low, s9_high, s11_seed, s14_low, s15_seed);
-        dff_setup!(
-            self,
-            clock,
-            s1_h,
-            s2_h,
-            s3_start,
-            s4_start,
-            s5_start,
-            s6_seed,
-            s7_upper,
-            s8_upper,
-            s9_upper,
-            s10_product,
-            s10_exact,
-            s11_error
-        );
+        dff_setup!(self, clock, s1_h, s2_h, s3_start, s4_start, s5_start, s6_seed, s7_upper);
+        dff_setup!(self, clock, s8_upper, s9_upper, s10_product, s10_exact, s11_error);
         dff_setup!(self, clock, s12_high, s12_upper, s13_upper, s14_upper, s15_step, s16_sum);
         self.reciprocal.next = self.s16_sum.q.val();
 
