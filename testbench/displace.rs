@@ -58,7 +58,7 @@ fn height(random: &mut Random) -> u64 {
 fn seen(random: &mut Random) -> Beat {
     let c = nearness(random);
     let limit = |random: &mut Random| random.signed(32) >> random.below(4);
-    let mut normal = [0; 3].map(|_| (i128::from(random.signed(32)) * i128::from(c.max(1)) >> 31) as i64);
+    let mut normal = [0; 3].map(|_| ((i128::from(random.signed(32)) * i128::from(c.max(1))) >> 31) as i64);
     if random.chance(20) {
         normal[random.below(3) as usize] = 0;
     }
