@@ -17,6 +17,9 @@ const FONT: &[u8] = include_bytes!("font/relief-sans.ttf");
 /// What a drawing step gives.
 pub type Drawn<B> = Result<(), DrawingAreaErrorKind<<B as DrawingBackend>::ErrorType>>;
 
+/// A name and what stands in the file.
+pub type Named = (String, Vec<u8>);
+
 /// What can be drawn.
 pub trait Drawing {
     /// Draws on a white area of [`SIZE`].
@@ -53,7 +56,7 @@ fn png(drawing: &impl Drawing) -> Result<Vec<u8>, Box<dyn Error>> {
 ///
 /// # Errors
 /// The drawing fails.
-pub fn pictures(name: &str, drawing: &impl Drawing) -> Result<[(String, Vec<u8>); 2], Box<dyn Error>> {
+pub fn pictures(name: &str, drawing: &impl Drawing) -> Result<[Named; 2], Box<dyn Error>> {
     Ok([(format!("{name}.svg"), svg(drawing)?.into_bytes()), (format!("{name}.png"), png(drawing)?)])
 }
 
