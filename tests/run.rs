@@ -127,8 +127,8 @@ fn run_draws_a_terrain_of_860_thousand_triangles() -> Outcome {
     assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
     let number = |line: &str, at: usize| {
         let line = stdout.lines().find(|found| found.trim_start().starts_with(line)).unwrap_or_default();
-        let numbers = line.split([' ', ',']).filter_map(|word| word.parse::<u64>().ok());
-        numbers.skip(at).next().unwrap_or_else(|| panic!("no `{line}` in {stdout}"))
+        let mut numbers = line.split([' ', ',']).filter_map(|word| word.parse::<u64>().ok());
+        numbers.nth(at).unwrap_or_else(|| panic!("no `{line}` in {stdout}"))
     };
     let (triangles, cycles) = (number("triangles", 0), number("cycles", 0));
     assert!((850_000..870_000).contains(&triangles), "{stdout}");
