@@ -11,7 +11,7 @@
 //! | `node-max`, `node-min` | the extremum of 3 x 3 samples of the level below ([`mip_build`]) | node |
 //!
 //! (Gumhold & Huettner 1999, sections 4.1 to 4.3, equation 12 and figure 19.) Node i stands on texel i 2^L, cell i
-//! covers the texels i 2^L .. (i + 1) 2^L. All are read bilinearly, by [`mip_fetch`](crate::mip_fetch).
+//! covers the texels i 2^L .. (i + 1) 2^L. All are read bilinearly, by [`mip_fetch`].
 //!
 //! Error: that of its rounding, but for the extrema, which copy. Example: of the row 1, 5, 2, 0, the cells of `average`
 //! are 3, 1, those of `cell-max` 5, 2, and the nodes of `node-max` 5, 5, 0.
