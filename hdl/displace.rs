@@ -5,7 +5,7 @@
 //! delta = d / z      den = 1 + delta nz      X' = (X + f delta nx) / den      Y' likewise      c' = c / den
 //! ```
 //!
-//! | port        | format        | meaning |   Latency 87, interval 1
+//! | port        | format        | meaning |   Latency 89, interval 1
 //! | in_vertex   | 6 x signed 32 | X, Y, c, nx c, ny c, nz c, as the remesher sends them
 //! | in_q        | UQ16.8        | height; above 65535.0 counts as that
 //! | in_minimum  | SQ1.30        | displacement of height 0, of 2^exponent z0; magnitude at most 2^30
@@ -21,11 +21,11 @@
 //! | s1                 | the input                                    | |
 //! | s2 .. s18          | displacement d, delta, which saturates       | [`Delta`] |
 //! | s2 .. s44          | normal of length 1                           | [`Normalize`] |
-//! | s45 .. s51         | delta times normal; den                      | [`Along`] |
+//! | s45 .. s51, s52, s53 | den; delta times normal for Y, for X       | [`Along`] |
 //! | s52 .. s72         | its reciprocal                               | [`Leading`], [`Newton`] |
-//! | s52 .. s85         | X' and Y'                                    | [`Project`], twice |
+//! | s53 .. s86, s54 .. s87 | Y', X'                                   | [`Project`], twice |
 //! | s73 .. s85         | c'                                           | [`Nearness`] |
-//! | s86                | flags, and what is 0 with one                | |
+//! | s88                | flags, and what is 0 with one                | |
 //!
 //! Example: height of no displacement: den = 1.0, X' = X rounded to 1/256 pixel, c' at most 2 units below c.
 
@@ -77,22 +77,34 @@ pub struct Displace {
     newton: Newton,
     s72_zeros: Delay<6, { Newton::LATENCY }>,
     s51_focal: LongDelay<32, 16, 17, 17>,
+    s52_focal: DataRegister<U<32>>,
+    s53_focal: DataRegister<U<32>>,
+    s73_reciprocal: DataRegister<U<32>>,
+    s74_reciprocal: DataRegister<U<32>>,
+    s73_zeros: DataRegister<U<6>>,
+    s74_zeros: DataRegister<U<6>>,
     s18_x: Delay<32, 17>,
     s18_y: Delay<32, 17>,
-    s59_x: LongDelay<32, 13, 14, 14>,
-    s59_y: LongDelay<32, 13, 14, 14>,
+    s61_x: LongDelay<32, 14, 14, 15>,
+    s60_y: LongDelay<32, 14, 14, 14>,
     project_x: Project,
     project_y: Project,
     s31_c: LongDelay<31, 10, 10, 10>,
     s72_c: LongDelay<31, 13, 14, 14>,
     nearness: Nearness,
     s52_behind: DataRegister<Bit>,
-    s85_behind: LongDelay<1, 7, 13, 13>,
+    s87_behind: LongDelay<1, 9, 13, 13>,
     s40_q: LongDelay<24, 13, 13, 13>,
-    s85_q: LongDelay<24, 15, 15, 15>,
-    s86_vertex: DataRegister<WideU<75>>,
-    s86_flags: DataRegister<U<3>>,
-    s86_q: DataRegister<U<24>>,
+    s87_q: LongDelay<24, 15, 16, 16>,
+    s86_near: DataRegister<Bit>,
+    s87_near: DataRegister<Bit>,
+    s86_c: DataRegister<U<31>>,
+    s87_c: DataRegister<U<31>>,
+    s87_y: DataRegister<S<22>>,
+    s87_beyond_y: DataRegister<Bit>,
+    s88_vertex: DataRegister<WideU<75>>,
+    s88_flags: DataRegister<U<3>>,
+    s88_q: DataRegister<U<24>>,
     flow: Flow<{ Displace::STAGES }, 102>,
     go: Wire<Bit>,
     lane_x: Wire<S<32>>,
@@ -151,22 +163,34 @@ impl Default for Displace {
             newton: Newton::default(),
             s72_zeros: Delay::default(),
             s51_focal: LongDelay::default(),
+            s52_focal: DataRegister::default(),
+            s53_focal: DataRegister::default(),
+            s73_reciprocal: DataRegister::default(),
+            s74_reciprocal: DataRegister::default(),
+            s73_zeros: DataRegister::default(),
+            s74_zeros: DataRegister::default(),
             s18_x: Delay::default(),
             s18_y: Delay::default(),
-            s59_x: LongDelay::default(),
-            s59_y: LongDelay::default(),
+            s61_x: LongDelay::default(),
+            s60_y: LongDelay::default(),
             project_x: Project::default(),
             project_y: Project::default(),
             s31_c: LongDelay::default(),
             s72_c: LongDelay::default(),
             nearness: Nearness::default(),
             s52_behind: DataRegister::default(),
-            s85_behind: LongDelay::default(),
+            s87_behind: LongDelay::default(),
             s40_q: LongDelay::default(),
-            s85_q: LongDelay::default(),
-            s86_vertex: DataRegister::default(),
-            s86_flags: DataRegister::default(),
-            s86_q: DataRegister::default(),
+            s87_q: LongDelay::default(),
+            s86_near: DataRegister::default(),
+            s87_near: DataRegister::default(),
+            s86_c: DataRegister::default(),
+            s87_c: DataRegister::default(),
+            s87_y: DataRegister::default(),
+            s87_beyond_y: DataRegister::default(),
+            s88_vertex: DataRegister::default(),
+            s88_flags: DataRegister::default(),
+            s88_q: DataRegister::default(),
             flow: Flow::default(),
             go: Wire::default(),
             lane_x: Wire::default(),
@@ -196,7 +220,7 @@ impl Default for Displace {
 }
 
 impl Displace {
-    const STAGES: usize = 86;
+    const STAGES: usize = 88;
     /// Cycles from vertex to displaced vertex.
     pub const LATENCY: usize = Self::STAGES + 1;
 }
@@ -206,11 +230,12 @@ impl Logic for Displace {
     fn update(&mut self) {
         clock!(
             self, clock, delta, s44_delta, normalize, along, leading, newton, s72_zeros, s51_focal, s18_x, s18_y,
-            s59_x, s59_y
+            s61_x, s60_y
         );
-        clock!(self, clock, project_x, project_y, s31_c, s72_c, nearness, s85_behind, s40_q, s85_q, flow);
+        clock!(self, clock, project_x, project_y, s31_c, s72_c, nearness, s87_behind, s40_q, s87_q, flow);
         dff_setup!(self, clock, s1_x, s1_y, s1_c, s1_normal, s1_q, s1_minimum, s1_range, s1_exponent, s1_focal);
-        dff_setup!(self, clock, s52_behind, s86_vertex, s86_flags, s86_q);
+        dff_setup!(self, clock, s52_behind, s52_focal, s53_focal, s73_reciprocal, s74_reciprocal, s73_zeros, s74_zeros);
+        dff_setup!(self, clock, s86_near, s87_near, s86_c, s87_c, s87_y, s87_beyond_y, s88_vertex, s88_flags, s88_q);
         self.go.next = self.flow.go.val();
         self.flow.in_valid.next = self.in_valid.val();
         self.in_ready.next = self.go.val();
@@ -268,18 +293,18 @@ impl Logic for Displace {
         self.s72_zeros.value.next = self.leading.zeros.val();
         // 2^-8
         self.behind.next = self.along.den.val() <= 0x10_0000;
-        self.s85_behind.go.next = self.go.val();
-        self.s85_behind.value.next = bit_cast_to::<U<1>>(self.s52_behind.q.val());
+        self.s87_behind.go.next = self.go.val();
+        self.s87_behind.value.next = bit_cast_to::<U<1>>(self.s52_behind.q.val());
 
-        // s52 to s85
+        // s52 to s87: Y a cycle behind c, and X behind Y, so that no register feeds multipliers that lie apart.
         self.s51_focal.go.next = self.go.val();
         self.s51_focal.value.next = self.s1_focal.q.val();
-        self.s59_x.go.next = self.go.val();
-        self.s59_x.value.next = self.s18_x.delayed.val();
+        self.s61_x.go.next = self.go.val();
+        self.s61_x.value.next = self.s18_x.delayed.val();
         self.s18_x.go.next = self.go.val();
         self.s18_x.value.next = self.s1_x.q.val();
-        self.s59_y.go.next = self.go.val();
-        self.s59_y.value.next = self.s18_y.delayed.val();
+        self.s60_y.go.next = self.go.val();
+        self.s60_y.value.next = self.s18_y.delayed.val();
         self.s18_y.go.next = self.go.val();
         self.s18_y.value.next = self.s1_y.q.val();
         self.s72_c.go.next = self.go.val();
@@ -288,48 +313,60 @@ impl Logic for Displace {
         self.s31_c.value.next = self.s1_c.q.val();
         self.project_x.go.next = self.go.val();
         self.project_x.displacement.next = self.along.along_x.val();
-        self.project_x.focal.next = self.s51_focal.delayed.val();
-        self.project_x.position.next = self.s59_x.delayed.val();
-        self.project_x.reciprocal.next = self.newton.reciprocal.val();
-        self.project_x.zeros.next = self.s72_zeros.delayed.val();
+        self.project_x.focal.next = self.s53_focal.q.val();
+        self.project_x.position.next = self.s61_x.delayed.val();
+        self.project_x.reciprocal.next = self.s74_reciprocal.q.val();
+        self.project_x.zeros.next = self.s74_zeros.q.val();
         self.project_y.go.next = self.go.val();
         self.project_y.displacement.next = self.along.along_y.val();
-        self.project_y.focal.next = self.s51_focal.delayed.val();
-        self.project_y.position.next = self.s59_y.delayed.val();
-        self.project_y.reciprocal.next = self.newton.reciprocal.val();
-        self.project_y.zeros.next = self.s72_zeros.delayed.val();
+        self.project_y.focal.next = self.s52_focal.q.val();
+        self.project_y.position.next = self.s60_y.delayed.val();
+        self.project_y.reciprocal.next = self.s73_reciprocal.q.val();
+        self.project_y.zeros.next = self.s73_zeros.q.val();
         self.nearness.go.next = self.go.val();
         self.nearness.c.next = self.s72_c.delayed.val();
         self.nearness.reciprocal.next = self.newton.reciprocal.val();
         self.nearness.zeros.next = self.s72_zeros.delayed.val();
         self.s40_q.go.next = self.go.val();
         self.s40_q.value.next = self.s1_q.q.val();
-        self.s85_q.go.next = self.go.val();
-        self.s85_q.value.next = self.s40_q.delayed.val();
+        self.s87_q.go.next = self.go.val();
+        self.s87_q.value.next = self.s40_q.delayed.val();
 
-        // s86
-        self.beyond.next = self.project_x.beyond.val() || self.project_y.beyond.val();
+        // s88: c is there at s85, Y at s86, X at s87.
+        self.beyond.next = self.project_x.beyond.val() || self.s87_beyond_y.q.val();
         if self.go.val() {
             self.s52_behind.d.next = self.behind.val();
-            self.s86_q.d.next = self.s85_q.delayed.val();
-            self.s86_vertex.d.next = 0.into();
-            if self.s85_behind.delayed.val().any() {
-                self.s86_flags.d.next = 1.into();
-            } else if self.nearness.near.val() {
-                self.s86_flags.d.next = 2.into();
+            self.s52_focal.d.next = self.s51_focal.delayed.val();
+            self.s53_focal.d.next = self.s52_focal.q.val();
+            self.s73_reciprocal.d.next = self.newton.reciprocal.val();
+            self.s74_reciprocal.d.next = self.s73_reciprocal.q.val();
+            self.s73_zeros.d.next = self.s72_zeros.delayed.val();
+            self.s74_zeros.d.next = self.s73_zeros.q.val();
+            self.s86_near.d.next = self.nearness.near.val();
+            self.s87_near.d.next = self.s86_near.q.val();
+            self.s86_c.d.next = self.nearness.moved.val();
+            self.s87_c.d.next = self.s86_c.q.val();
+            self.s87_y.d.next = self.project_y.pixel.val();
+            self.s87_beyond_y.d.next = self.project_y.beyond.val();
+            self.s88_q.d.next = self.s87_q.delayed.val();
+            self.s88_vertex.d.next = 0.into();
+            if self.s87_behind.delayed.val().any() {
+                self.s88_flags.d.next = 1.into();
+            } else if self.s87_near.q.val() {
+                self.s88_flags.d.next = 2.into();
             } else if self.beyond.val() {
-                self.s86_flags.d.next = 4.into();
+                self.s88_flags.d.next = 4.into();
             } else {
-                self.s86_flags.d.next = 0.into();
-                self.s86_vertex.d.next = bit_cast_to::<WideU<75>>(bit_cast_to::<U<22>>(self.project_x.pixel.val()))
-                    | (bit_cast_to::<WideU<75>>(bit_cast_to::<U<22>>(self.project_y.pixel.val())) << 22)
-                    | (bit_cast_to::<WideU<75>>(self.nearness.moved.val()) << 44);
+                self.s88_flags.d.next = 0.into();
+                self.s88_vertex.d.next = bit_cast_to::<WideU<75>>(bit_cast_to::<U<22>>(self.project_x.pixel.val()))
+                    | (bit_cast_to::<WideU<75>>(bit_cast_to::<U<22>>(self.s87_y.q.val())) << 22)
+                    | (bit_cast_to::<WideU<75>>(self.s87_c.q.val()) << 44);
             }
         }
 
-        self.flow.value.next = bit_cast_to::<WideU<102>>(self.s86_vertex.q.val())
-            | (bit_cast_to::<WideU<102>>(self.s86_flags.q.val()) << 75)
-            | (bit_cast_to::<WideU<102>>(self.s86_q.q.val()) << 78);
+        self.flow.value.next = bit_cast_to::<WideU<102>>(self.s88_vertex.q.val())
+            | (bit_cast_to::<WideU<102>>(self.s88_flags.q.val()) << 75)
+            | (bit_cast_to::<WideU<102>>(self.s88_q.q.val()) << 78);
         self.flow.out_ready.next = self.out_ready.val();
         self.out_valid.next = self.flow.out_valid.val();
         self.out_x.next = bit_cast_to::<S<22>>(self.flow.out_value.val().get_bits::<22>(0));
@@ -353,7 +390,7 @@ ports! {
     [] Displace {
         inputs: in_valid, in_vertex, in_q, in_minimum, in_range, in_exponent, in_focal, out_ready;
         outputs: in_ready, out_valid, out_vertex;
-        blocks: delta, s44_delta, normalize, along, leading, newton, s72_zeros, s51_focal, s18_x, s18_y, s59_x, s59_y, project_x, project_y, s31_c, s72_c, nearness, s85_behind, s40_q, s85_q, flow;
-        state: s1_x, s1_y, s1_c, s1_normal, s1_q, s1_minimum, s1_range, s1_exponent, s1_focal, delta, s44_delta, normalize, along, leading, newton, s72_zeros, s51_focal, s18_x, s18_y, s59_x, s59_y, project_x, project_y, s31_c, s72_c, nearness, s52_behind, s85_behind, s40_q, s85_q, s86_vertex, s86_flags, s86_q, flow
+        blocks: delta, s44_delta, normalize, along, leading, newton, s72_zeros, s51_focal, s18_x, s18_y, s61_x, s60_y, project_x, project_y, s31_c, s72_c, nearness, s87_behind, s40_q, s87_q, flow;
+        state: s52_focal, s53_focal, s73_reciprocal, s74_reciprocal, s73_zeros, s74_zeros, s86_near, s87_near, s86_c, s87_c, s87_y, s87_beyond_y, s1_x, s1_y, s1_c, s1_normal, s1_q, s1_minimum, s1_range, s1_exponent, s1_focal, delta, s44_delta, normalize, along, leading, newton, s72_zeros, s51_focal, s18_x, s18_y, s61_x, s60_y, project_x, project_y, s31_c, s72_c, nearness, s52_behind, s87_behind, s40_q, s87_q, s88_vertex, s88_flags, s88_q, flow
     }
 }

@@ -5,7 +5,7 @@
 //!
 //! | port           | format | range |   Latency 18, interval 1
 //! | in_m           | UQ1.31 | [1, 2): the leading bit stands for itself and is not looked at
-//! | out_reciprocal | UQ0.32 | (1/2, 1); 1.0 is not reached   Golden: models::reciprocal::golden
+//! | out_reciprocal | UQ0.32 | [1/2, 1); 1.0 is not reached   Golden: models::reciprocal::golden
 //!
 //! Example: 0xC000_0000 (1.5) -> 0xAAAA_AAAA (2/3) to within 2 units.
 

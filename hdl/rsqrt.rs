@@ -5,7 +5,7 @@
 //!
 //! | port     | format | range |   Latency 25, interval 1
 //! | in_x     | UQ2.30 | [1, 4): one of the two leading bits is set   Golden: models::rsqrt::golden
-//! | out_root | UQ0.32 | (1/2, 1); 1.0 is not reached
+//! | out_root | UQ0.32 | [1/2, 1); 1.0 is not reached
 //!
 //! Example: 0x8000_0000 (2.0) -> 0xB504_F33x (0.70710678). [`Normalize`] takes a vector to length 1 with it.
 

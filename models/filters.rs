@@ -103,7 +103,7 @@ impl Filter {
     }
 
     /// The level for vertices that stand `step` texels apart: the number k of thresholds sqrt(2) 2^i up to the step, and one
-    /// less for extrema on nodes, whose samples cover two steps of their level.
+    /// less for extrema on nodes, whose samples cover two steps of their level. A step is at most 65535.
     pub const fn level(self, step: u32) -> usize {
         let k = thresholds(step << 16) as usize;
         match self {
@@ -113,14 +113,22 @@ impl Filter {
         }
     }
 
-    /// The value at (u, v) texels of level 0, UQ16.8. Coordinates have [`FRACTION_BITS`].
+    /// The value at (u, v) texels of level 0, UQ16.8. Coordinates have [`FRACTION_BITS`]; on an axis that repeats they count
+    /// modulo the period.
     pub fn at(self, pyramid: &Pyramid, level: usize, [u, v]: [u32; 2]) -> u32 {
         // The middle of cell 0 lies (2^L - 1) / 2 texels beyond texel 0.
         let middle = match self.centring() {
             Centring::Node => 0,
             Centring::Cell => ((1 << level) - 1) << (FRACTION_BITS - 1),
         };
-        let [u, v] = [u, v].map(|coordinate: u32| coordinate.saturating_sub(middle));
+        let sides = [pyramid.levels[0].width, pyramid.levels[0].height];
+        let [u, v] = [(u, 0), (v, 1)].map(|(coordinate, axis)| match pyramid.wrap[axis] {
+            Wrap::Clamp => coordinate.saturating_sub(middle),
+            Wrap::Repeat => {
+                let period = (sides[axis] as u64) << FRACTION_BITS;
+                ((u64::from(coordinate) + period - u64::from(middle) % period) % period) as u32
+            }
+        });
         mip_fetch::fetch(pyramid, level, u, v, mip_fetch::Filter::Bilinear)
     }
 }

@@ -39,7 +39,7 @@ pub struct Axis {
     pub size: u32,
     /// The axis repeats.
     pub repeat: bool,
-    /// The lane counts in units of `2^texel_bits` texels, `1..=14`.
+    /// The lane counts in units of `2^texel_bits` texels, `1..=15`.
     pub texel_bits: u32,
 }
 

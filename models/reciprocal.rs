@@ -13,7 +13,7 @@
 //! | port | format | range |
 //! |------|--------|-------|
 //! | m    | UQ1.31 | `[1, 2)`: the leading bit is set, as a leading-zero count and a shift leave it |
-//! | out  | UQ0.32 | `(1/2, 1)`; 1.0 is not representable and not reached: m = 1.0 gives 2^32 - 2 |
+//! | out  | UQ0.32 | `[1/2, 1)`; 1.0 is not representable and not reached: m = 1.0 gives 2^32 - 1 |
 //!
 //! The result never exceeds the true value and never rises with m. Source: Newton's iteration 1669 on Taylor's lines;
 //! the bound is proved by the test over both ends of every line and measured in between, see `tests/arithmetic.rs`.

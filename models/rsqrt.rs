@@ -11,7 +11,7 @@
 //! | port | format | range |
 //! |------|--------|-------|
 //! | x    | UQ2.30 | `[1, 4)` |
-//! | out  | UQ0.32 | `(1/2, 1)`; 1.0 is not representable and not reached |
+//! | out  | UQ0.32 | `[1/2, 1)`; 1.0 is not representable and not reached |
 //!
 //! Relative error at most 1.16e-9 = 2^-29.68, see `tests/arithmetic.rs`. Example: x = 0x8000_0000 (2.0) -> 0xB504_F33x (0.70710678).
 

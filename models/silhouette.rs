@@ -34,7 +34,7 @@ pub struct Horizon {
     pub deepest: f64,
 }
 
-/// The horizons of map and mesh over the columns of texels that both cover.
+/// The horizons of map and mesh over the columns of texels that both cover, but the last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     /// The first column.
@@ -162,7 +162,8 @@ impl<'a> View<'a> {
             rms: percent * f64::sqrt(squares / count),
             mean: percent * sum / count,
             peak_loss: percent * peaks / (2 * self.step) as f64,
-            deepest: percent * deepest,
+            // No error is 0, not -0.
+            deepest: percent * deepest + 0.0,
         }
     }
 }

@@ -122,7 +122,7 @@ impl Binding for DisplaceBinding {
         "displaces a vertex along its normal, in projective form"
     }
     fn latency(&self) -> &'static str {
-        "87"
+        "89"
     }
     fn interval(&self) -> &'static str {
         "1"

@@ -75,7 +75,7 @@ impl Binding for FilterLevelBinding {
         "1"
     }
     fn error(&self) -> &'static str {
-        "footprint 2^-16 (1/rho + c/rho) of its value, level 0 for that footprint"
+        "footprint 2^-16 (1/A + 1/B + 1/F) of its value, one for each floor; the level exact for it"
     }
     fn device(&self, _set: &WidthSet) -> Box<dyn Device> {
         Box::new(Stepped::new(FilterLevel::default()))

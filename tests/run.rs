@@ -117,7 +117,6 @@ fn run_keeps_a_closed_body_closed() -> Outcome {
     Ok(())
 }
 
-/// What may surprise is said before the work, in one sentence with its place and what would be right.
 /// The frame of docs/scene.md. A step makes up to two triangles, so 1.10 cycles a triangle is twice what is allowed here.
 #[test]
 fn run_draws_a_terrain_of_860_thousand_triangles() -> Outcome {
@@ -139,6 +138,7 @@ fn run_draws_a_terrain_of_860_thousand_triangles() -> Outcome {
     Ok(())
 }
 
+/// What may surprise is said before the work, in one sentence with its place and what would be right.
 #[test]
 fn run_warns_of_what_may_surprise() -> Outcome {
     let folder = tempfile::tempdir()?;

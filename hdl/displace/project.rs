@@ -3,7 +3,7 @@
 //!
 //! | stage             | operation                       | width    |   Latency 34, interval 1; holds while `go` is low
 //! | s1 .. s8_product  | along f                         | signed 78 |
-//! | s9_moved          | 4 X + (along f >> 24)           | signed 54, 20 fraction bits |
+//! | s9_moved          | 4 X + (along f >> 24)           | signed 55, 20 fraction bits |
 //! | s10_moved          | what is beyond 2^51 is 2^51     | signed 52: divided by at most 2^17, that is still beyond the screen |
 //! | s11 .. s21         | it waits for the reciprocal     | |
 //! | s22 .. s29_product | moved times reciprocal         | signed 84 |

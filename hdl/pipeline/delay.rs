@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Delay lines: small memories that are written round and round, with a register behind each.
 //!
-//! Sixteen words are what a distributed RAM holds; block RAM is left to maps.
+//! Sixteen words are what a distributed RAM holds; block RAM is left to others.
 //!
 //! | port    | format     | meaning |   Latency N, and A + B + C; interval 1
 //! | value   | unsigned W | |   Golden: none, it changes nothing

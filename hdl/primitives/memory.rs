@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Memories that synthesis infers as block RAM: one synchronous read port, and for the RAM one write port.
+//! Memories with one synchronous read port: a RAM, with one write port, which synthesis infers as block RAM, and a ROM, which
+//! stays in logic.
 //!
 //! RAM: read_data(t+1) = memory[read_address(t)] before the write of cycle t (read first); it holds while `enable` is low.
 //! ROM: read_data(t+1) = contents[read_address(t)]; it holds while `enable` is low. The contents are loaded with `$readmemh`,

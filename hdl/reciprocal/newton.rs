@@ -9,7 +9,7 @@
 //! | s10_product  | m seed / 2^17, modulo 2^19            | it is within 2^18 of 2^34, which is 0 |
 //! | s11_error    | e = floor((2^51 - m seed) / 2^17)     | signed 19: below 2^17.7, SQ0.34 |
 //! | s12 .. s14   | products of digits of seed and e      | 34 bits |
-//! | s15_step     | floor(seed e / 2^22)                  | signed 17: below 2^15.7 |
+//! | s15_step     | floor(seed e / 2^22)                  | signed 18: below 2^15.7 |
 //! | s16_sum      | seed 2^12 + step                      | UQ0.32: below the true value |
 //!
 //! The seed is three bits longer than a digit, and e two: what these multiply is chosen and added, not multiplied.

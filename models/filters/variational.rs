@@ -97,8 +97,8 @@ impl<'a> Dyadic<'a> {
                 weights += weight;
                 range = [range[0].min(texel), range[1].max(texel)];
             }
-            // A node behind the last texel may cover none; nothing reads it then.
-            if weights == 0 { (0, [0, 0]) } else { ((2 * sum + weights).div_euclid(2 * weights), range) }
+            // Each covers a texel: the last node stands less than a step behind the last one.
+            ((2 * sum + weights).div_euclid(2 * weights), range)
         };
         (0..self.count()).map(of_node).collect()
     }
@@ -158,13 +158,14 @@ impl<'a> Dyadic<'a> {
         middle.map_or(heights[node], |(wish, _)| *wish)
     }
 
-    fn medians(&self) -> (Vec<i64>, Vec<[i64; 2]>) {
-        let (mut heights, ranges): (Vec<i64>, Vec<[i64; 2]>) = self.start().into_iter().unzip();
+    /// Rounds of medians, from the means and within the ranges that [`Dyadic::start`] gives.
+    fn medians(&self, means: &[i64], ranges: &[[i64; 2]]) -> Vec<i64> {
+        let mut heights = means.to_vec();
         for node in (0..ROUNDS).flat_map(|_| 0..ranges.len()) {
             let [low, high] = ranges[node];
             heights[node] = self.median(&heights, node).clamp(low, high);
         }
-        (heights, ranges)
+        heights
     }
 
     fn level(&self, heights: &[i64]) -> Level {
@@ -211,7 +212,8 @@ pub fn start(map: &HeightMap, wrap: [Wrap; 2], level: usize) -> Level {
 /// which is the best that it alone can do where weights are those of the texels' own points.
 pub fn median(map: &HeightMap, wrap: [Wrap; 2], level: usize) -> Level {
     let dyadic = Dyadic::new(map, wrap, level);
-    dyadic.level(&dyadic.medians().0)
+    let (means, ranges): (Vec<i64>, Vec<[i64; 2]>) = dyadic.start().into_iter().unzip();
+    dyadic.level(&dyadic.medians(&means, &ranges))
 }
 
 /// A level by 150 steps down the gradient, from the medians on, or from the means where these are better. A step is a share of
@@ -220,8 +222,8 @@ pub fn median(map: &HeightMap, wrap: [Wrap; 2], level: usize) -> Level {
 pub fn descend(map: &HeightMap, wrap: [Wrap; 2], level: usize) -> Level {
     let dyadic = Dyadic::new(map, wrap, level);
     let real = |heights: &[i64]| heights.iter().map(|height| *height as f64).collect::<Vec<f64>>();
-    let means: Vec<i64> = dyadic.start().into_iter().map(|(mean, _)| mean).collect();
-    let (medians, ranges) = dyadic.medians();
+    let (means, ranges): (Vec<i64>, Vec<[i64; 2]>) = dyadic.start().into_iter().unzip();
+    let medians = dyadic.medians(&means, &ranges);
     let volume_of = |heights: &[i64]| dyadic.volume(&real(heights)).0;
     let begin = if volume_of(&medians) < volume_of(&means) { medians } else { means };
     let areas: Vec<f64> = (0..dyadic.count())
@@ -234,8 +236,7 @@ pub fn descend(map: &HeightMap, wrap: [Wrap; 2], level: usize) -> Level {
     for _ in 0..STEPS {
         let step = |node: usize| {
             let [low_here, high_here] = ranges[node].map(|height| height as f64);
-            let fall = if areas[node] > 0.0 { slope[node] / areas[node] } else { 0.0 };
-            (heights[node] - share * (high - low) * fall).clamp(low_here, high_here)
+            (heights[node] - share * (high - low) * slope[node] / areas[node]).clamp(low_here, high_here)
         };
         let next: Vec<f64> = (0..heights.len()).map(step).collect();
         let (volume, next_slope) = dyadic.volume(&next);

@@ -12,8 +12,11 @@ pub const TOLERANCES: [u32; 2] = [1, 2];
 
 /// The chapter of a map, with the points of our methods.
 pub fn collect(subject: Subject, count: usize, engine: Engine, progress: &dyn Progress) -> Chapter {
-    let silhouettes = silhouettes::of(&subject);
-    let mut chapter = Chapter { subject, points: Vec::new(), silhouettes, notes: Vec::new(), failures: Vec::new() };
+    let (silhouettes, notes) = match silhouettes::of(&subject, progress) {
+        Ok(silhouettes) => (silhouettes, Vec::new()),
+        Err(error) => (Vec::new(), vec![format!("horizons under filters: {error}")]),
+    };
+    let mut chapter = Chapter { subject, points: Vec::new(), silhouettes, notes, failures: Vec::new() };
     for method in METHODS {
         let begun = chapter.points.len();
         for goal in goals(*method, &chapter.subject, count) {

@@ -119,7 +119,7 @@ fn horizons(chapter: &Chapter) -> Result<String, Box<dyn Error>> {
     }
     let mut text = String::from("<h3>What filters keep of the horizon</h3>\n");
     text += &paragraph(
-        "Vertices stand 5, 10 and 20 texels apart and take their heights from a level of each filter. Errors are those of the \
+        "Vertices stand some texels apart, their step, and take their heights from a level of each filter. Errors are those of the \
          horizon seen from two sides, over all places of the grid, as shares of the range; a peak loss is how far the highest \
          point sinks, and deepest the most that any column loses. Filters of minima are judged from below. Those that keep peaks \
          are for maps seen from afar; means are for shading.",

@@ -2,6 +2,8 @@
 //! The horizon of a map under every filter, at one step of the grid: figures, and a drawing like figure 19 of Gumhold and
 //! Huettner (1999).
 
+use std::sync::atomic::{AtomicU64, Ordering};
+
 use plotters::backend::DrawingBackend;
 use plotters::coord::Shift;
 use plotters::drawing::DrawingArea;
@@ -11,6 +13,7 @@ use plotters::style::{BLACK, Color, FontTransform, IntoFont, RGBColor, WHITE};
 use rayon::prelude::*;
 use relief_models::filters::Filter;
 use relief_models::map::HeightMap;
+use relief_models::mesh::Progress;
 use relief_models::mip_build::Wrap;
 use relief_models::silhouette::{Horizon, Profile, SilhouetteError, View, check, levels};
 
@@ -47,7 +50,14 @@ pub struct Silhouettes {
 ///
 /// # Errors
 /// See [`SilhouetteError`].
-pub fn measure(name: &str, map: &HeightMap, steps: &[u32]) -> Result<Vec<Silhouettes>, SilhouetteError> {
+pub fn measure(
+    name: &str,
+    map: &HeightMap,
+    steps: &[u32],
+    progress: &dyn Progress,
+) -> Result<Vec<Silhouettes>, SilhouetteError> {
+    let done = AtomicU64::new(0);
+    progress.phase("filtering", Filter::ALL.len() as u64);
     let wrap = [Wrap::Clamp; 2];
     let most = levels(map, wrap, steps.iter().copied().max().unwrap_or(1));
     let of_filter = |filter: &Filter| {
@@ -56,7 +66,9 @@ pub fn measure(name: &str, map: &HeightMap, steps: &[u32]) -> Result<Vec<Silhoue
             let view = View::new(map, *filter, &pyramid, *step)?;
             Ok((*filter, view.horizon(), view.profile(0, *step as usize / 2)))
         };
-        steps.iter().map(of_step).collect::<Result<Vec<_>, SilhouetteError>>()
+        let found = steps.iter().map(of_step).collect::<Result<Vec<_>, SilhouetteError>>();
+        progress.advance(done.fetch_add(1, Ordering::Relaxed) + 1);
+        found
     };
     let by_filter = Filter::ALL.par_iter().map(of_filter).collect::<Result<Vec<_>, SilhouetteError>>()?;
     let all = steps.iter().enumerate().map(|(at, step)| {
@@ -74,10 +86,12 @@ pub fn measure(name: &str, map: &HeightMap, steps: &[u32]) -> Result<Vec<Silhoue
 }
 
 /// All filters at those of [`STEPS`] that the map has room for.
-pub fn of(subject: &Subject) -> Vec<Silhouettes> {
+///
+/// # Errors
+/// See [`SilhouetteError`].
+pub fn of(subject: &Subject, progress: &dyn Progress) -> Result<Vec<Silhouettes>, SilhouetteError> {
     let steps: Vec<u32> = STEPS.into_iter().filter(|step| check(&subject.map, *step).is_ok()).collect();
-    // With these steps nothing is refused.
-    measure(&subject.name, &subject.map, &steps).unwrap_or_default()
+    measure(&subject.name, &subject.map, &steps, progress)
 }
 
 /// The figures of all maps, as comma-separated values.

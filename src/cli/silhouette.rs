@@ -10,7 +10,7 @@ use relief_models::silhouette::{Horizon, check};
 use relief_testbench::output::OutputFolder;
 use serde::Serialize;
 
-use super::{Outcome, Result, write_all};
+use super::{Meter, Outcome, Result, write_all};
 use crate::chart::picture::pictures;
 use crate::chart::silhouettes::{STEPS, Silhouettes, is_drawing, measure};
 
@@ -22,7 +22,7 @@ use crate::chart::silhouettes::{STEPS, Silhouettes, is_drawing, measure};
 /// docs/filters.md tells what the filters are.
 #[derive(clap::Args)]
 pub struct Arguments {
-    /// The map: a grey PNG
+    /// The map: a grey PNG of up to 4097 x 4097 samples
     map: PathBuf,
     /// Texels from vertex to vertex
     #[arg(long, value_name = "N", value_delimiter = ',', default_values_t = STEPS, value_parser = step)]
@@ -72,9 +72,15 @@ pub fn run(arguments: &Arguments) -> Result {
     let (map, _) = map::read_values(path, MOST_SIDE)?;
     let name = path.file_stem().map_or_else(|| path.display().to_string(), |stem| stem.to_string_lossy().into_owned());
     let of_map = |error| format!("{}: {error}", path.display());
+    let mut steps = steps.clone();
+    steps.sort_unstable();
+    steps.dedup();
     steps.iter().try_for_each(|step| check(&map, *step)).map_err(of_map)?;
     let folder = OutputFolder::open(out)?;
-    let all = measure(&name, &map, steps).map_err(of_map)?;
+    let meter = Meter::new();
+    let all = measure(&name, &map, &steps, &meter);
+    meter.finish();
+    let all = all.map_err(of_map)?;
     for silhouettes in &all {
         for (name, bytes) in pictures(&silhouettes.file(), silhouettes)? {
             std::fs::write(folder.path().join(name), bytes)

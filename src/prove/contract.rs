@@ -265,8 +265,8 @@ pub const CONTRACTS: [Contract; 21] = [
     },
     Contract {
         name: "displace",
-        reach: 94,
-        faults: &[fault(Property::Room, "flow_86_of_102", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        reach: 96,
+        faults: &[fault(Property::Room, "flow_88_of_102", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {

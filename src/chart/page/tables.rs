@@ -133,15 +133,19 @@ pub fn all_points(chapter: &Chapter) -> String {
     table(&columns, &rows)
 }
 
-/// What every filter does to the horizon, a row a step and filter; the least RMS error and peak loss of a step are marked.
+/// What every filter does to the horizon, a row a step and filter; the least RMS error and peak loss of a step are marked, from
+/// above and from below.
 pub fn filters(chapter: &Chapter) -> String {
     let mut rows = String::new();
     for silhouettes in &chapter.silhouettes {
-        let least = |of: &dyn Fn(&Horizon) -> f64| {
-            silhouettes.rows.iter().map(|(_, horizon)| of(horizon)).fold(f64::INFINITY, f64::min)
+        // Those that are judged from above, and those from below.
+        let least = |is_lower: bool, of: fn(&Horizon) -> f64| {
+            let alike = silhouettes.rows.iter().filter(|(filter, _)| filter.is_lower() == is_lower);
+            alike.map(|(_, horizon)| of(horizon)).fold(f64::INFINITY, f64::min)
         };
-        let best = [least(&|horizon| horizon.rms), least(&|horizon| horizon.peak_loss)];
         for (filter, horizon) in &silhouettes.rows {
+            let best = [|horizon: &Horizon| horizon.rms, |horizon: &Horizon| horizon.peak_loss]
+                .map(|of| least(filter.is_lower(), of));
             let share = |value: f64| format!("{value:.2} %");
             rows += &format!("<tr><td>{}</td><td>{}</td>", filter.name(), silhouettes.step);
             rows += &cell(&horizon.level.to_string(), false);

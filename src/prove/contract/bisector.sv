@@ -9,7 +9,7 @@
     always @* if (started) begin
         counted_most: assert (under_way <= 1);
         room_outlet: assert (beats <= 16 && all <= 16);
-        room_held: assert (beats <= \block.outlet.held_q + 1 && \block.outlet.held_q <= 16);
+        room_least: assert (beats <= \block.outlet.held_q + 1 && \block.outlet.held_q <= 16);
         room_moves: assert (!\block.moves_q || \block.outlet.held_q <= 4);
         room_queue: assert (leaves <= 16);
         room_leaves: assert (leaves <= \block.queue.held_q + 1 && \block.queue.held_q <= 16);

@@ -20,7 +20,7 @@
         held_room_above: assert (\block.above_map_q == (\block.level_q != 0));
         room_spare: assert (!(\block.sends && \block.spare_valid_q ));
         room_feed: assert (\block.level_q == 0 || \block.feed_room_q + coming + kept + \block.feed_valid_q == 8);
-        room_free: assert (\block.level_q == 0 || \block.feed_free_q == (\block.feed_room_q != 0));
+        room_places: assert (\block.level_q == 0 || \block.feed_free_q == (\block.feed_room_q != 0));
         room_level: assert (!\block.advance || coming == 0);
         reached_measure: cover (state == 1);
         reached_check: cover (state == 2);

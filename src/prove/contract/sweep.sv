@@ -18,7 +18,7 @@
         reached_op_5: cover (op_valid && op_code == 5);
         reached_op_6: cover (op_valid && op_code == 6);
         reached_op_7: cover (op_valid && op_code == 7);
-        held_room: assert (!op_valid || moved);
+        held_moves: assert (!op_valid || moved);
     end
     // Nothing moves without room.
     reg moved = 0;
