@@ -78,7 +78,7 @@ impl Binding for PerspectiveCorrectBinding {
         "texel coordinates of a vertex: the division by c, and the snap that closes seams"
     }
     fn latency(&self) -> &'static str {
-        "38"
+        "41"
     }
     fn interval(&self) -> &'static str {
         "1"

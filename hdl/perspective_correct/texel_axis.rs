@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One coordinate: lane times reciprocal, rounded, and snapped to the ends of its axis.
 //!
-//! | stage            | operation                             | width    |   Latency 15, interval 1; holds while `go` is low
+//! | stage            | operation                             | width    |   Latency 18, interval 1; holds while `go` is low
 //! | s1 .. s6_product | lane reciprocal                       | 63 bits |
 //! | s7 .. s9_shift   | all of its shift but one              | by 62 - zeros - texel_bits, 0 ..= 44 |
 //! | s10_low           | 32 bits, and whether there are more   | more is beyond any size |
 //! | s11_texel        | one more bit, rounded half up         | at most 2^31, signed 34 |
-//! | s12, s13_texel   | a period off, twice, where it repeats | from -2^10 on |
-//! | s14_texel        | what is still at the end or beyond it | below the period, or size - 1 |
-//! | s15_texel        | what is near 0 is 0                   | UQ13.16: a size is at most 2^13 texels |
+//! | s12, s13_texel   | a period off where it repeats: is it beyond, then which | from -2^10 on |
+//! | s14, s15_texel   | once more                             | |
+//! | s16, s17_texel   | what is still at the end or beyond it | below the period, or size - 1 |
+//! | s18_texel        | what is near 0 is 0                   | UQ13.16: a size is at most 2^13 texels |
 //!
 //! A texel is taken off or clamped from `bound` on: size - 2^-6 where the axis repeats, size - 1 - 2^-6 where it does not.
 //! Three periods are below 2^31, so it does not matter what a quotient beyond 32 bits becomes.
@@ -44,14 +45,28 @@ pub struct TexelAxis {
     s11_bound: DataRegister<S<34>>,
     s11_repeat: DataRegister<Bit>,
     s12_texel: DataRegister<S<34>>,
+    s12_less: DataRegister<S<34>>,
+    s12_over: DataRegister<Bit>,
     s12_size: DataRegister<S<34>>,
     s12_bound: DataRegister<S<34>>,
     s12_repeat: DataRegister<Bit>,
     s13_texel: DataRegister<S<34>>,
+    s13_size: DataRegister<S<34>>,
     s13_bound: DataRegister<S<34>>,
     s13_repeat: DataRegister<Bit>,
     s14_texel: DataRegister<S<34>>,
-    s15_texel: DataRegister<U<29>>,
+    s14_less: DataRegister<S<34>>,
+    s14_over: DataRegister<Bit>,
+    s14_bound: DataRegister<S<34>>,
+    s14_repeat: DataRegister<Bit>,
+    s15_texel: DataRegister<S<34>>,
+    s15_bound: DataRegister<S<34>>,
+    s15_repeat: DataRegister<Bit>,
+    s16_texel: DataRegister<S<34>>,
+    s16_end: DataRegister<S<34>>,
+    s16_over: DataRegister<Bit>,
+    s17_texel: DataRegister<S<34>>,
+    s18_texel: DataRegister<U<29>>,
     doubled: Wire<U<33>>,
     size_16: Wire<S<34>>,
     snap: Constant<S<34>>,
@@ -82,14 +97,28 @@ impl Default for TexelAxis {
             s11_bound: DataRegister::default(),
             s11_repeat: DataRegister::default(),
             s12_texel: DataRegister::default(),
+            s12_less: DataRegister::default(),
+            s12_over: DataRegister::default(),
             s12_size: DataRegister::default(),
             s12_bound: DataRegister::default(),
             s12_repeat: DataRegister::default(),
             s13_texel: DataRegister::default(),
+            s13_size: DataRegister::default(),
             s13_bound: DataRegister::default(),
             s13_repeat: DataRegister::default(),
             s14_texel: DataRegister::default(),
+            s14_less: DataRegister::default(),
+            s14_over: DataRegister::default(),
+            s14_bound: DataRegister::default(),
+            s14_repeat: DataRegister::default(),
             s15_texel: DataRegister::default(),
+            s15_bound: DataRegister::default(),
+            s15_repeat: DataRegister::default(),
+            s16_texel: DataRegister::default(),
+            s16_end: DataRegister::default(),
+            s16_over: DataRegister::default(),
+            s17_texel: DataRegister::default(),
+            s18_texel: DataRegister::default(),
             doubled: Wire::default(),
             size_16: Wire::default(),
             snap: Constant::new(S::new(1 << 10)),
@@ -101,19 +130,19 @@ impl Default for TexelAxis {
 
 impl TexelAxis {
     /// Cycles from lane and reciprocal to coordinate.
-    pub const LATENCY: usize = Product2x2::<32, 33, 64>::LATENCY + ShiftRight::<64>::LATENCY + 6;
+    pub const LATENCY: usize = Product2x2::<32, 33, 64>::LATENCY + ShiftRight::<64>::LATENCY + 9;
 }
 
 impl Logic for TexelAxis {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, product, s6_amount, shift, s10_axis);
-        dff_setup!(self, clock, s10_low, s10_beyond, s11_texel, s11_size, s11_bound);
-        dff_setup!(
-            self, clock, s11_repeat, s12_texel, s12_size, s12_bound, s12_repeat, s13_texel, s13_bound, s13_repeat
-        );
-        dff_setup!(self, clock, s14_texel, s15_texel);
-        self.texel.next = self.s15_texel.q.val();
+        dff_setup!(self, clock, s10_low, s10_beyond, s11_texel, s11_size, s11_bound, s11_repeat);
+        dff_setup!(self, clock, s12_texel, s12_less, s12_over, s12_size, s12_bound, s12_repeat);
+        dff_setup!(self, clock, s13_texel, s13_size, s13_bound, s13_repeat);
+        dff_setup!(self, clock, s14_texel, s14_less, s14_over, s14_bound, s14_repeat, s15_texel, s15_bound, s15_repeat);
+        dff_setup!(self, clock, s16_texel, s16_end, s16_over, s17_texel, s18_texel);
+        self.texel.next = self.s18_texel.q.val();
 
         self.product.go.next = self.go.val();
         self.product.a.next = bit_cast_to::<S<32>>(self.lane.val());
@@ -145,29 +174,42 @@ impl Logic for TexelAxis {
                 self.s11_bound.d.next = self.size_16.val() - self.snap.val();
             }
             self.s12_texel.d.next = self.s11_texel.q.val();
-            if self.s11_repeat.q.val() && self.s11_texel.q.val() >= self.s11_bound.q.val() {
-                self.s12_texel.d.next = self.s11_texel.q.val() - self.s11_size.q.val();
-            }
+            self.s12_less.d.next = self.s11_texel.q.val() - self.s11_size.q.val();
+            self.s12_over.d.next = self.s11_repeat.q.val() && self.s11_texel.q.val() >= self.s11_bound.q.val();
             self.s12_size.d.next = self.s11_size.q.val();
             self.s12_bound.d.next = self.s11_bound.q.val();
             self.s12_repeat.d.next = self.s11_repeat.q.val();
             self.s13_texel.d.next = self.s12_texel.q.val();
-            if self.s12_repeat.q.val() && self.s12_texel.q.val() >= self.s12_bound.q.val() {
-                self.s13_texel.d.next = self.s12_texel.q.val() - self.s12_size.q.val();
+            if self.s12_over.q.val() {
+                self.s13_texel.d.next = self.s12_less.q.val();
             }
+            self.s13_size.d.next = self.s12_size.q.val();
             self.s13_bound.d.next = self.s12_bound.q.val();
             self.s13_repeat.d.next = self.s12_repeat.q.val();
             self.s14_texel.d.next = self.s13_texel.q.val();
-            if self.s13_texel.q.val() >= self.s13_bound.q.val() {
-                if self.s13_repeat.q.val() {
-                    self.s14_texel.d.next = self.s13_bound.q.val() - 1;
-                } else {
-                    self.s14_texel.d.next = self.s13_bound.q.val() + self.snap.val();
-                }
+            self.s14_less.d.next = self.s13_texel.q.val() - self.s13_size.q.val();
+            self.s14_over.d.next = self.s13_repeat.q.val() && self.s13_texel.q.val() >= self.s13_bound.q.val();
+            self.s14_bound.d.next = self.s13_bound.q.val();
+            self.s14_repeat.d.next = self.s13_repeat.q.val();
+            self.s15_texel.d.next = self.s14_texel.q.val();
+            if self.s14_over.q.val() {
+                self.s15_texel.d.next = self.s14_less.q.val();
             }
-            self.s15_texel.d.next = bit_cast_to::<U<29>>(self.s14_texel.q.val());
-            if self.s14_texel.q.val() <= self.snap.val() {
-                self.s15_texel.d.next = 0.into();
+            self.s15_bound.d.next = self.s14_bound.q.val();
+            self.s15_repeat.d.next = self.s14_repeat.q.val();
+            self.s16_texel.d.next = self.s15_texel.q.val();
+            self.s16_over.d.next = self.s15_texel.q.val() >= self.s15_bound.q.val();
+            self.s16_end.d.next = self.s15_bound.q.val() + self.snap.val();
+            if self.s15_repeat.q.val() {
+                self.s16_end.d.next = self.s15_bound.q.val() - 1;
+            }
+            self.s17_texel.d.next = self.s16_texel.q.val();
+            if self.s16_over.q.val() {
+                self.s17_texel.d.next = self.s16_end.q.val();
+            }
+            self.s18_texel.d.next = bit_cast_to::<U<29>>(self.s17_texel.q.val());
+            if self.s17_texel.q.val() <= self.snap.val() {
+                self.s18_texel.d.next = 0.into();
             }
         }
     }
@@ -177,4 +219,4 @@ impl Logic for TexelAxis {
     }
 }
 
-latches! { [] TexelAxis: product, s6_amount, shift, s10_low, s10_beyond, s10_axis, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_size, s12_bound, s12_repeat, s13_texel, s13_bound, s13_repeat, s14_texel, s15_texel }
+latches! { [] TexelAxis: product, s6_amount, shift, s10_low, s10_beyond, s10_axis, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_less, s12_over, s12_size, s12_bound, s12_repeat, s13_texel, s13_size, s13_bound, s13_repeat, s14_texel, s14_less, s14_over, s14_bound, s14_repeat, s15_texel, s15_bound, s15_repeat, s16_texel, s16_end, s16_over, s17_texel, s18_texel }

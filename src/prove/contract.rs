@@ -253,8 +253,8 @@ pub const CONTRACTS: [Contract; 21] = [
     },
     Contract {
         name: "perspective_correct",
-        reach: 45,
-        faults: &[fault(Property::Room, "flow_37_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        reach: 48,
+        faults: &[fault(Property::Room, "flow_40_of_58", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
