@@ -339,7 +339,7 @@ fn scene_of_the_repository_are_read() {
             count += 1;
         }
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 8);
 }
 
 #[test]
