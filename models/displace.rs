@@ -21,7 +21,8 @@
 //!
 //! The output vertex, which the strip unit carries: lanes 0 and 1 are X' and Y', lane 2 is c', lane 3 holds the
 //! [`flag`]s, lane 4 the height q (UQ16.8) for tinting; the others are 0. A vertex with a flag has no position (lanes 0
-//! to 2 are 0), and the triangles that use it are dropped, not clipped.
+//! to 2 are 0), and the triangles that use it are dropped, not clipped. Narrower strip units carry the same bits packed
+//! ([`displaced::pack`]).
 //!
 //! The result is a function of vertex data, height and per-draw constants, never of the triangle: that keeps the mesh
 //! closed. Error against f64: 0.016 pixels at 640 x 480 (`tests/displacement.rs`; rounding to 1/256 pixel is 0.002).
@@ -56,6 +57,78 @@ pub mod displaced {
     pub const FLAGS: usize = 3;
     /// Height q, UQ16.8.
     pub const HEIGHT: usize = 4;
+
+    use crate::fixed::wrap;
+    use crate::step::{MAX_COMPONENTS, Vertex};
+
+    /// Bits of the five lanes.
+    const WIDTHS: [u32; 5] = [22, 22, 31, 3, 24];
+    /// Bits of them all: what a strip unit has to carry.
+    pub const BITS: u32 = 102;
+
+    /// A displaced vertex in a strip unit of so many components of so many bits each: as it is where each lane fits a
+    /// component, otherwise one lane's bits behind the other's, from the lowest of component 0 on. `components bits` are
+    /// at least [`BITS`].
+    pub fn pack(vertex: &Vertex, components: usize, bits: u32) -> Vertex {
+        if bits >= 32 && components >= WIDTHS.len() {
+            return *vertex;
+        }
+        let (mut all, mut at) = (0u128, 0);
+        for (lane, width) in vertex.iter().zip(WIDTHS) {
+            all |= ((*lane as u128) & ((1 << width) - 1)) << at;
+            at += width;
+        }
+        let mut out = [0; MAX_COMPONENTS];
+        for (k, component) in out.iter_mut().enumerate().take(components) {
+            // Beyond the last bit there are zeros.
+            let word = all.checked_shr(k as u32 * bits).unwrap_or(0);
+            *component = wrap(word as i64, bits);
+        }
+        out
+    }
+
+    /// The displaced vertex that [`pack`] has made this of.
+    pub fn unpack(packed: &Vertex, components: usize, bits: u32) -> Vertex {
+        if bits >= 32 && components >= WIDTHS.len() {
+            return *packed;
+        }
+        let mut all = 0u128;
+        for (k, component) in packed.iter().enumerate().take(components) {
+            let word = (*component as u128) & ((1 << bits) - 1);
+            all |= word.checked_shl(k as u32 * bits).unwrap_or(0);
+        }
+        let mut out = [0; MAX_COMPONENTS];
+        for (k, width) in WIDTHS.into_iter().enumerate() {
+            let word = (all & ((1 << width) - 1)) as i64;
+            // X' and Y' are signed.
+            out[k] = if k < 2 { wrap(word, width) } else { word };
+            all >>= width;
+        }
+        out
+    }
+
+    #[cfg(test)]
+    mod tests {
+        use super::*;
+        use proptest::prelude::*;
+
+        proptest! {
+            #[test]
+            fn displaced_vertices_come_back(
+                x in -1i64 << 21..1 << 21, y in -1i64 << 21..1 << 21, c in 0i64..1 << 31, flags in 0i64..8, q in 0i64..1 << 24,
+                components in 1usize..=16, bits in 1u32..=40,
+            ) {
+                prop_assume!(components as u32 * bits >= BITS);
+                let mut vertex = [0; MAX_COMPONENTS];
+                vertex[..5].copy_from_slice(&[x, y, c, flags, q]);
+                let packed = pack(&vertex, components, bits);
+                prop_assert!(packed.iter().all(|lane| wrap(*lane, bits.max(32)) == *lane));
+                prop_assert!(bits >= 32 || packed.iter().all(|lane| wrap(*lane, bits) == *lane));
+                prop_assert!(packed[components..].iter().all(|lane| *lane == 0));
+                prop_assert_eq!(unpack(&packed, components, bits), vertex);
+            }
+        }
+    }
 }
 
 /// Per-draw constants of the displacement.
@@ -113,13 +186,14 @@ pub fn golden(constants: &Constants, vertex: &Vertex, q: u32) -> Vertex {
     out
 }
 
-/// Exact position of the displaced vertex: X', Y' in pixels and c', or `None` behind the eye.
-pub fn exact(constants: &Constants, vertex: &Vertex, q: f64) -> Option<[f64; 3]> {
+/// Exact position of the displaced vertex with the given lanes, in units of their last place, for a height `q` of 0 to 65535:
+/// X', Y' in pixels and c', or `None` behind the eye.
+pub fn exact(constants: &Constants, lanes: &[f64; MAX_COMPONENTS], q: f64) -> Option<[f64; 3]> {
     let unit = f64::from(constants.exponent - 30).exp2();
     let d = (constants.minimum as f64 + q * constants.range as f64 / 256.0) * unit;
-    let [x, y, c] = [0, 1, 2].map(|k| vertex[k] as f64);
+    let [x, y, c] = [0, 1, 2].map(|k| lanes[k]);
     let (x, y, c) = (x / 262_144.0, y / 262_144.0, c / 2_147_483_648.0);
-    let n = [0, 1, 2].map(|k| vertex[lane::NORMAL + k] as f64);
+    let n = [0, 1, 2].map(|k| lanes[lane::NORMAL + k]);
     let length = n.iter().map(|n| n * n).sum::<f64>().sqrt();
     let n = n.map(|n| if length > 0.0 { n / length } else { 0.0 });
     let (delta, focal) = (d * c, f64::from(constants.focal) / 65536.0);

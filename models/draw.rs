@@ -20,6 +20,7 @@ use crate::digits::{rounded_up, short};
 use crate::displace::{self, displaced};
 use crate::face_normal::{self, Pixel};
 use crate::filter_level;
+use crate::lanes::Lanes;
 use crate::light::{self, Light, Material};
 use crate::perspective_correct::{self, Axis};
 use crate::remesher::{BaseTriangle, Format};
@@ -124,8 +125,11 @@ pub enum DrawError {
          what positions resolve; a `near` of at least {least} is expected"
     )]
     Extent { near: String, extent: String, least: String },
-    #[error("the remesher format has {components} components of {bits} bits; a draw needs 9 of 32")]
-    Format { components: usize, bits: u32 },
+    #[error(
+        "the remesher format has vertices of {components} components of {bits} bits, and this draw takes {least} of at \
+         most 32 bits, and 102 bits in all: position and texel coordinates{varying}; another format is expected"
+    )]
+    Format { components: usize, bits: u32, least: usize, varying: &'static str },
     #[error(transparent)]
     Remesher(#[from] crate::remesher::FormatError),
 }
@@ -224,6 +228,22 @@ impl Dropped {
 }
 
 impl Counts {
+    /// Adds those of another draw.
+    pub const fn add(&mut self, other: &Self) {
+        self.kept += other.kept;
+        self.cut += other.cut;
+        self.pieces += other.pieces;
+        self.culled.left += other.culled.left;
+        self.culled.right += other.culled.right;
+        self.culled.top += other.culled.top;
+        self.culled.bottom += other.culled.bottom;
+        self.culled.near += other.culled.near;
+        self.culled.far += other.culled.far;
+        self.dropped.near += other.dropped.near;
+        self.dropped.lane += other.dropped.lane;
+        self.dropped.grid += other.dropped.grid;
+    }
+
     /// Counts one base triangle.
     pub fn count(&mut self, assembled: &Assembled) {
         match assembled {
@@ -283,6 +303,8 @@ pub struct Draw {
     pub axes: [Axis; 2],
     /// Constants of the displacement.
     pub displacement: displace::Constants,
+    /// What of a vertex goes through the remesher.
+    pub lanes: Lanes,
     /// The size of a pixel at distance 1.
     pub pixel: Pixel,
     /// What the surface looks like; [`Material::TERRAIN`] unless changed.
@@ -462,10 +484,12 @@ impl Draw {
         // Below 32 octaves of 2^16 voxels.
         transform.grid_bias =
             (vertex_transform::depth(&transform, (c - 3).max(1)) - last).clamp(0, (nearest - 1 + last).max(0)) as i32;
+        let lanes = lanes(format, &views)?;
         let texel_bits = axes[0].texel_bits.max(axes[1].texel_bits);
-        let seams_are_exact = (1i64 << texel_bits) << 7 <= c;
+        let gone = 32 - lanes.bits;
+        let seams_are_exact = (1i64 << texel_bits) << 7 <= c >> gone;
         // A thousandth for the rounding of z0.
-        let exact_seams_near = deepest as f64 * power_of_two(unit + texel_bits as i32 - 20) * 1.001;
+        let exact_seams_near = deepest as f64 * power_of_two(unit + (texel_bits + gone) as i32 - 20) * 1.001;
         let (scale, shift) = mantissa(pixel);
         Ok(Draw {
             cull: true,
@@ -474,6 +498,7 @@ impl Draw {
             level,
             axes,
             displacement,
+            lanes,
             // The pixel is 2 / focal wide at most 32 and at least 2^-17: exponents 8..=48 after the saturation.
             pixel: Pixel { scale, shift: shift.clamp(8, 48) as u32 },
             material: Material::TERRAIN,
@@ -486,7 +511,8 @@ impl Draw {
         })
     }
 
-    /// Whether the snap of [`perspective_correct`] is wide enough for the deepest vertex: `2^texel_bits z/z0 <= 2^24`.
+    /// Whether the snap of [`perspective_correct`] is wide enough for the deepest vertex: `2^texel_bits z/z0 <= 2^24`, and
+    /// a bit less for each bit that the lanes lack of 32.
     ///
     /// Beyond it the two sides of a wrap seam may part by a rounding, far away.
     pub const fn seams_are_exact(&self) -> bool {
@@ -530,7 +556,7 @@ impl Draw {
             Ok(p) => {
                 let piece = |k: usize| BaseTriangle {
                     corners: [p[0], p[k], p[k + 1]].map(|v| v.corner),
-                    data: [p[0], p[k], p[k + 1]].map(|v| v.data),
+                    data: [p[0], p[k], p[k + 1]].map(|v| self.lanes.narrow(&v.data)),
                 };
                 if is_cut {
                     Assembled::Cut((1..p.len() - 1).map(piece).collect())
@@ -575,6 +601,7 @@ impl Draw {
 
     /// Where in the height map a vertex of the remesher looks.
     pub fn request(&self, vertex: &Vertex) -> Request {
+        let vertex = self.lanes.widen(vertex);
         let inverse = perspective_correct::inverse(vertex[lane::C]);
         Request {
             level: filter_level::golden(&self.level, vertex[lane::DENSITY], inverse),
@@ -585,7 +612,7 @@ impl Draw {
 
     /// The vertex displaced by a height, UQ16.8: lanes of [`displaced`], what the strip unit carries.
     pub fn displace(&self, vertex: &Vertex, height_uq16_8: u32) -> Vertex {
-        displace::golden(&self.displacement, vertex, height_uq16_8)
+        displace::golden(&self.displacement, &self.lanes.widen(vertex), height_uq16_8)
     }
 
     /// Whether all vertices of a displaced triangle have a position.
@@ -625,6 +652,30 @@ impl Draw {
         }
         world
     }
+}
+
+/// The lanes that a remesher takes of the vertices: all, or those that are not the same everywhere.
+fn lanes(format: &Format, views: &[ViewVertex]) -> Result<Lanes, DrawError> {
+    let normal = views.first().map(|v| v.normal).filter(|n| views.iter().all(|v| v.normal == *n));
+    let density = views.first().map(|v| v.density).filter(|d| views.iter().all(|v| v.density == *d));
+    let (components, bits) = (format.components, format.vertex_bits);
+    let whole = Lanes { bits, normal: None, density: None };
+    // The fewer constants the better, where there is room.
+    let choices = [(None, None), (None, density), (normal, None), (normal, density)];
+    let mut choices = choices.map(|(normal, density)| Lanes { normal, density, ..whole }).into_iter();
+    // The strip unit has the same components, and carries displaced vertices in them.
+    let carries = components as u32 * bits >= displaced::BITS;
+    choices.find(|lanes| bits <= 32 && carries && lanes.components() <= components).ok_or(DrawError::Format {
+        components,
+        bits,
+        least: Lanes { normal, density, ..whole }.components(),
+        varying: match (normal, density) {
+            (None, None) => ", normal, and density of texels",
+            (None, _) => ", and normal",
+            (_, None) => ", and density of texels",
+            _ => "",
+        },
+    })
 }
 
 /// Texel coordinate of `uv` on an axis.
@@ -715,9 +766,6 @@ fn validate(
     format: &Format,
 ) -> Result<(), DrawError> {
     format.validate()?;
-    if format.components != lane::COUNT || format.vertex_bits != 32 {
-        return Err(DrawError::Format { components: format.components, bits: format.vertex_bits });
-    }
     let CameraView { eye, target, up, fov_y, near, far, viewport, cell_px } = *camera;
     for (name, value) in [("the camera's eye", eye), ("the camera's target", target), ("the camera's up", up)] {
         finite(|| format!("a coordinate of {name}"), &value.to_array())?;

@@ -69,3 +69,10 @@ pub fn golden(constants: &Constants, lane: i64, inverse: (u32, u32)) -> u32 {
     // thresholds <= 16.
     thresholds(footprint(constants, lane, inverse)).saturating_sub(1).min(constants.levels - 1)
 }
+
+/// The exact footprint in texels, unlimited, of lanes in units of the last place; `c` is above 0.
+pub fn exact(constants: &Constants, lane: f64, c: f64) -> f64 {
+    let density = lane.max(0.0) / c * 1024.0;
+    let nearness = c / 2_147_483_648.0;
+    density / nearness * f64::from(constants.scale) * (-f64::from(constants.shift)).exp2()
+}

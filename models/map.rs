@@ -40,11 +40,11 @@ impl Limit {
     /// That of the width set `large`, the last that scenes run on.
     pub const LARGEST: Limit = Limit { side: 2_047, bank_words: 131_072 };
 
-    /// Whether the memory can hold a map of this size with all its levels, and read four texels of it at once.
+    /// Whether the memory can hold a map of this size with its lowest `levels`, and read four texels of it at once.
     ///
     /// # Errors
     /// What the map is or does instead, as the end of a sentence.
-    pub fn check(&self, size: [usize; 2], wrap: [Wrap; 2]) -> Result<(), String> {
+    pub fn check(&self, size: [usize; 2], wrap: [Wrap; 2], levels: usize) -> Result<(), String> {
         let Limit { side, bank_words: limit } = *self;
         if size.iter().any(|samples| *samples > side) {
             return Err(format!("has a side beyond the limit of {side}; a smaller map is expected"));
@@ -54,7 +54,7 @@ impl Limit {
             let what = format!("repeats in {axis} with a period of {period} samples, which is odd");
             return Err(format!("{what}; an even number, or better a power of two, is expected"));
         }
-        let words = bank_words(size, wrap);
+        let words = bank_words(size, wrap, levels);
         if words <= limit {
             return Ok(());
         }
@@ -112,12 +112,13 @@ pub fn levels(size: [usize; 2], wrap: [Wrap; 2]) -> Vec<[usize; 2]> {
     std::iter::successors(Some(size), above).take(count).collect()
 }
 
-/// Words of all levels of a map's pyramid in each of four banks, which hold the even and the odd columns of the even and
-/// the odd rows.
-pub fn bank_words(size: [usize; 2], wrap: [Wrap; 2]) -> u64 {
+/// Words of the lowest `most` levels of a map's pyramid in each of four banks, which hold the even and the odd columns of
+/// the even and the odd rows.
+pub fn bank_words(size: [usize; 2], wrap: [Wrap; 2], most: usize) -> u64 {
     let words = |level: &[usize; 2]| level.map(|side| side.div_ceil(2) as u64);
     levels(size, wrap)
         .iter()
+        .take(most)
         .map(words)
         .fold(0, |sum, [width, height]| sum.saturating_add(width.saturating_mul(height)))
 }

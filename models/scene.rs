@@ -25,6 +25,7 @@ use crate::mesh::{InputError, Place};
 
 mod base;
 mod camera;
+mod draws;
 mod fields;
 mod heights;
 mod numbers;
@@ -81,6 +82,8 @@ pub struct Remesh {
     pub cell_px: f64,
     /// Whether base triangles that cannot be seen are left out.
     pub cull: bool,
+    /// Levels that a map has at most, level 0 included; a scene file leaves them all.
+    pub levels: usize,
 }
 
 /// A base mesh with the map that displaces it.

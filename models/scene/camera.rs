@@ -62,7 +62,7 @@ pub(super) fn resolve(camera: &fields::Camera) -> Result<(Camera, Option<String>
 
 pub(super) fn resolve_remesh(remesh: Option<&fields::Remesh>) -> Result<Remesh, String> {
     let cell_px = within("cell_px", remesh.and_then(|remesh| remesh.cell_px).unwrap_or(2.0), 1.0, 64.0);
-    Ok(Remesh { cell_px: cell_px?, cull: remesh.and_then(|remesh| remesh.cull).unwrap_or(true) })
+    Ok(Remesh { cell_px: cell_px?, cull: remesh.and_then(|remesh| remesh.cull).unwrap_or(true), levels: usize::MAX })
 }
 
 pub(super) fn resolve_lights(lights: &[Spanned<fields::Light>]) -> Result<Vec<Light>, (usize, String)> {

@@ -339,7 +339,11 @@ fn draw_refuses_with_a_sentence() {
         (make(&camera(), &vertices[..2], &MAP, [0.0, 0.1], &FORMAT), "uses vertex 2, but there are only 2"),
         (make(&camera(), &vertices, &MAP, [0.0, 1000.0], &FORMAT), "32768 times"),
         (make(&camera(), &vertices, &MAP, [f64::NAN, 0.1], &FORMAT), "displacement is not a finite number"),
-        (make(&camera(), &vertices, &MAP, [0.0, 0.1], &Format { components: 8, ..FORMAT }), "9 of 32"),
+        (
+            make(&camera(), &vertices, &MAP, [0.0, 0.1], &Format { components: 4, ..FORMAT }),
+            "takes 5 of at most 32 bits",
+        ),
+        (make(&camera(), &vertices, &MAP, [0.0, 0.1], &Format { vertex_bits: 33, ..FORMAT }), "components of 33 bits"),
         (make(&camera(), &vertices, &MAP, [0.0, 0.1], &Format { coordinate_bits: 25, ..FORMAT }), "25 bits"),
     ];
     for (result, sentence) in cases {

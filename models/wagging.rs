@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Wagging: how the silhouette of a displaced mesh trembles while the camera moves.
+//!
+//! ```text
+//! horizon(column) = least Y' of the displaced triangles at the column's centre         pixels
+//! e_f(column)     = horizon of frame f - that of the same frame at a reference cell, unfiltered
+//! wagging         = RMS over frames and columns of e_(f+1) - e_f          error = RMS of e
+//! ```
+//!
+//! A silhouette that is off by the same amount in every frame does not show; one that jumps does, wherever voxels and
+//! filter levels change from frame to frame (Gumhold & Huettner 1999, section 3.4, on filters and silhouettes).
+
+use crate::displace::displaced;
+use crate::displacement_pipeline::golden;
+use crate::draw::{CameraView, Draw, DrawError};
+use crate::mesh::Progress;
+use crate::remesher::Format;
+use crate::scene::Scene;
+use crate::step::Vertex;
+use glam::DVec3;
+use rayon::prelude::*;
+use serde::Serialize;
+use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
+
+/// A camera that moves along a line, eye and target together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Path {
+    /// Frames, at least 2.
+    pub frames: u32,
+    /// World units a frame.
+    pub step: DVec3,
+}
+
+/// What a cell and a filter make of a path.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Wagging {
+    /// Side of a voxel, pixels.
+    pub cell_px: f64,
+    /// Whether the levels of maxima are read; the map itself otherwise.
+    pub filtered: bool,
+    /// Triangles of all frames.
+    pub triangles: u64,
+    /// RMS of the change of the silhouette's error from frame to frame, pixels.
+    pub wagging: f64,
+    /// RMS of the error, pixels.
+    pub error: f64,
+    /// Mean of the error, pixels; above the reference it is below 0.
+    pub mean: f64,
+    /// The greatest change, pixels.
+    pub jump: f64,
+}
+
+/// The horizon of a frame, by column; infinite where there is none. With the number of its triangles.
+type Horizon = (Vec<f64>, u64);
+
+/// The cell of the reference, as a share of the smallest one that is compared.
+const REFERENCE: f64 = 0.5;
+
+/// Measures each cell with and without filter.
+///
+/// # Errors
+/// A frame does not fit the formats.
+pub fn measure(
+    scene: &Scene,
+    path: &Path,
+    cells: &[f64],
+    format: &Format,
+    progress: &dyn Progress,
+) -> Result<Vec<Wagging>, DrawError> {
+    let finest = cells.iter().copied().fold(f64::INFINITY, f64::min) * REFERENCE;
+    let kinds: Vec<(f64, bool)> =
+        std::iter::once((finest, false)).chain(cells.iter().flat_map(|cell| [(*cell, false), (*cell, true)])).collect();
+    let frames: Vec<(usize, u32)> =
+        (0..kinds.len()).flat_map(|kind| (0..path.frames).map(move |k| (kind, k))).collect();
+    progress.phase("drawing", frames.len() as u64);
+    let done = AtomicU64::new(0);
+    let draw = |(kind, frame): &(usize, u32)| {
+        let (cell_px, filtered) = kinds[*kind];
+        let way = f64::from(*frame) * path.step;
+        let view = scene.view();
+        let view = CameraView { eye: view.eye + way, target: view.target + way, cell_px, ..view };
+        let made = horizon(scene, &view, filtered, format);
+        progress.advance(done.fetch_add(1, Relaxed) + 1);
+        made
+    };
+    let horizons = frames.par_iter().map(draw).collect::<Result<Vec<Horizon>, _>>()?;
+    let of = |kind: usize| &horizons[kind * path.frames as usize..(kind + 1) * path.frames as usize];
+    Ok((1..kinds.len()).map(|kind| compare(kinds[kind], of(kind), of(0))).collect())
+}
+
+fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) -> Result<Horizon, DrawError> {
+    let mut top = vec![f64::INFINITY; view.viewport[0] as usize];
+    let mut triangles = 0;
+    for object in &scene.objects {
+        let mut draw = scene.draw(object, view, format)?;
+        if !filtered {
+            draw.level.levels = 1;
+        }
+        let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
+        for index in 0..draw.triangles.len() {
+            for piece in draw.assemble(index).pieces() {
+                golden(&draw, format, &pyramid, piece, &mut |triangle| {
+                    if Draw::is_drawable(&triangle) {
+                        triangles += 1;
+                        raise(&mut top, &triangle);
+                    }
+                });
+            }
+        }
+    }
+    Ok((top, triangles))
+}
+
+/// Takes the edges of a triangle into a horizon.
+fn raise(top: &mut [f64], triangle: &[Vertex; 3]) {
+    let half = top.len() as f64 / 2.0;
+    let point = |v: &Vertex| [v[displaced::X] as f64 / 256.0 + half, v[displaced::Y] as f64 / 256.0];
+    for k in 0..3 {
+        let (mut a, mut b) = (point(&triangle[k]), point(&triangle[(k + 1) % 3]));
+        if a[0] > b[0] {
+            (a, b) = (b, a);
+        }
+        // Columns whose centres, at 1/2, lie on the edge.
+        let first = (a[0] - 0.5).ceil().max(0.0);
+        let last = (b[0] - 0.5).floor().min(top.len() as f64 - 1.0);
+        let mut column = first;
+        while column <= last {
+            let along = if b[0] > a[0] { (column + 0.5 - a[0]) / (b[0] - a[0]) } else { 0.0 };
+            let y = a[1] + along * (b[1] - a[1]);
+            let at = &mut top[column as usize];
+            *at = at.min(y);
+            column += 1.0;
+        }
+    }
+}
+
+fn compare((cell_px, filtered): (f64, bool), frames: &[Horizon], reference: &[Horizon]) -> Wagging {
+    let error = |frame: usize, column: usize| {
+        let (got, want) = (frames[frame].0[column], reference[frame].0[column]);
+        (got.is_finite() && want.is_finite()).then_some(got - want)
+    };
+    let (mut squares, mut sum, mut count) = (0.0, 0.0, 0u64);
+    let (mut changes, mut jump, mut pairs) = (0.0, 0.0f64, 0u64);
+    for frame in 0..frames.len() {
+        for column in 0..frames[frame].0.len() {
+            let Some(now) = error(frame, column) else { continue };
+            (squares, sum, count) = (squares + now * now, sum + now, count + 1);
+            if frame + 1 < frames.len()
+                && let Some(next) = error(frame + 1, column)
+            {
+                let change = next - now;
+                (changes, jump, pairs) = (changes + change * change, jump.max(change.abs()), pairs + 1);
+            }
+        }
+    }
+    let mean = |sum: f64, count: u64| if count == 0 { 0.0 } else { sum / count as f64 };
+    Wagging {
+        cell_px,
+        filtered,
+        triangles: frames.iter().map(|(_, triangles)| triangles).sum(),
+        wagging: mean(changes, pairs).sqrt(),
+        error: mean(squares, count).sqrt(),
+        mean: mean(sum, count),
+        jump,
+    }
+}
