@@ -19,6 +19,7 @@ pub mod emit;
 mod engine;
 pub mod measure;
 mod output;
+pub mod plan;
 pub mod prove;
 pub mod remesh;
 pub mod run;
@@ -28,6 +29,7 @@ pub mod sim;
 pub mod stability;
 pub mod synth;
 pub mod tessellate;
+pub mod wagging;
 
 /// How a subcommand ended that could do its work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

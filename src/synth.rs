@@ -11,8 +11,10 @@
 //! | [`nextpnr`]  | places and routes, and reads the report                                  |
 //! | [`path`]     | the critical path in the names of the emitted Verilog                    |
 //! | [`measure`]  | all of it for one block, width set and part                              |
+//! | [`cost`]     | what widths cost before anything is synthesized: `relief plan`            |
 //! | [`figures`]  | `docs/figures.json` and the tables that are made of it                   |
 
+pub mod cost;
 pub mod figures;
 pub mod harness;
 pub mod measure;

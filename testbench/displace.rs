@@ -18,8 +18,8 @@ pub struct DisplaceBinding;
 struct Golden;
 
 /// Lanes that come, and lanes that leave.
-const TAKEN: usize = 6;
-const SENT: usize = 5;
+pub(crate) const TAKEN: usize = 6;
+pub(crate) const SENT: usize = 5;
 
 impl Model for Golden {
     fn accept(&mut self, beat: &Beat, expected: &mut Vec<Expected>) {
@@ -37,7 +37,8 @@ impl Model for Golden {
     }
 }
 
-fn beat(vertex: [i64; TAKEN], q: u64, constants: &Constants) -> Beat {
+/// The input beat of the first lanes of a vertex, and its height.
+pub(crate) fn beat(vertex: [i64; TAKEN], q: u64, constants: &Constants) -> Beat {
     let Constants { minimum, range, exponent, focal } = *constants;
     let word = |number, bits| pack(&[number], bits)[0];
     let rest = [q, word(minimum, 32), word(range, 26), word(exponent.into(), 6), focal.into()];

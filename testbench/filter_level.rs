@@ -55,7 +55,8 @@ fn draw(random: &mut Random) -> Beat {
     beat(lane, c, &constants)
 }
 
-fn beat(lane: i64, c: i64, constants: &Constants) -> Beat {
+/// The input beat of lanes rho c and c.
+pub(crate) fn beat(lane: i64, c: i64, constants: &Constants) -> Beat {
     let Constants { scale, shift, levels } = *constants;
     let word = |lane| pack(&[lane], 32)[0];
     vec![word(lane), word(c), scale.into(), shift.into(), levels.into()]

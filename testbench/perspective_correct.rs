@@ -117,7 +117,8 @@ impl Binding for PerspectiveCorrectBinding {
     }
 }
 
-fn beat(lanes: [i64; 3], u: &Axis, v: &Axis) -> Beat {
+/// The input beat of lanes u c, v c and c.
+pub(crate) fn beat(lanes: [i64; 3], u: &Axis, v: &Axis) -> Beat {
     let lanes = lanes.map(|lane| pack(&[lane], 32)[0]);
     let axes = [u.size, v.size, u.repeat.into(), v.repeat.into(), u.texel_bits, v.texel_bits];
     lanes.into_iter().chain(axes.map(u64::from)).collect()

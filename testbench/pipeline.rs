@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A draw through the pipeline: remesher, height fetch and strip unit are hardware on one clock; what stands between them
-//! is golden and takes no cycles of its own. Before the draw the pyramid builder, hardware too, makes the levels of the map.
+//! A draw through the pipeline: blocks on one clock, with queues between them that take no cycles of their own. Before the
+//! draw the pyramid builder, hardware too, makes the levels of the map.
 //!
 //! ```text
 //! map -> [mip_build] -> levels -> [mip_fetch]
-//! base triangles -> [remesher] -> step -> request -> [mip_fetch] -> displace -> step -> [strip_unit] -> triangles
-//!                                  `------------------ at most 32 steps wait -------------------'
+//!                                 .-> [perspective_correct] -> u, v -.
+//! base triangles -> [remesher] -> step                               +-> [mip_fetch] -> height -.
+//!                                 |-> [filter_level] -> level -------'                          |
+//!                                 `-> vertex -----------------------> [displace] <--------------'
+//!                                 step, at most 256 of them wait ---> [strip_unit] -> triangles
 //! ```
 //!
 //! Every beat that leaves a block is compared with the block's golden model as it leaves. The emitted modules can run
@@ -16,28 +19,34 @@ mod unit;
 
 pub use recording::PipelineRecording;
 
-use crate::binding::{Beat, find};
+use crate::binding::{Beat, find, unpack};
+use crate::displace;
+use crate::filter_level;
 use crate::mip_build::{size_beat, texel_beat};
 use crate::mip_fetch::{command_beat, load_beats};
+use crate::perspective_correct;
 use crate::remesh::TrianglePorts;
 use crate::remesher::{beat_of, step_of, words_of};
 use crate::replay::{Replay, ReplayError};
 use crate::scoreboard::{Mismatch, PATIENCE};
 use relief_hdl::widths::WidthSet;
+use relief_models::displace::displaced;
 use relief_models::draw::Draw;
 use relief_models::mip_build::{BuildSize, Level, Pyramid, side_above};
 use relief_models::mip_fetch::{Command, Filter};
 use relief_models::remesher::BaseTriangle;
-use relief_models::step::{Step, Vertex};
+use relief_models::step::{MAX_COMPONENTS, Step, Vertex};
+use relief_models::vertex_transform::lane;
 use serde::Serialize;
 use std::collections::VecDeque;
 use unit::Unit;
 
 /// The blocks that run as hardware, in the order of the pipeline.
-pub const BLOCKS: [&str; 4] = ["mip_build", "remesher", "mip_fetch", "strip_unit"];
+pub const BLOCKS: [&str; COUNT] =
+    ["mip_build", "remesher", "perspective_correct", "filter_level", "mip_fetch", "displace", "strip_unit"];
 
-/// Steps that wait for their heights at most.
-const DEPTH: usize = 32;
+/// Steps that wait for their vertices at most: more than the cycles from the remesher to the strip unit.
+const DEPTH: usize = 256;
 
 /// Why a draw did not go through.
 #[derive(Debug, thiserror::Error)]
@@ -98,25 +107,81 @@ pub struct Counts {
     pub silent: u64,
 }
 
-/// A step that has left the remesher, and how many of its vertices still lack their height.
+/// A step that has left the remesher, and how many of its vertices are still on their way.
 struct Waiting {
     step: Step,
     lacking: usize,
 }
 
+/// Vertices on their way, with nine lanes of 32 bits, and what the blocks have made of them, in order.
+#[derive(Default)]
+struct Queues {
+    /// For the block of that number.
+    vertices: [VecDeque<Vertex>; COUNT],
+    /// From the block of that number.
+    done: [VecDeque<Beat>; COUNT],
+}
+
+impl Queues {
+    /// Takes a vertex of the remesher.
+    fn take(&mut self, vertex: &Vertex) {
+        for unit in [PERSPECTIVE, LEVEL, DISPLACE] {
+            self.vertices[unit].push_back(*vertex);
+        }
+    }
+
+    /// The next beat for a block, if what it takes is there.
+    fn next(&mut self, draw: &Draw, unit: usize) -> Option<Beat> {
+        match unit {
+            PERSPECTIVE => {
+                let vertex = self.vertices[unit].pop_front()?;
+                let [u, v] = &draw.axes;
+                Some(perspective_correct::beat([lane::U, lane::V, lane::C].map(|lane| vertex[lane]), u, v))
+            }
+            LEVEL => {
+                let vertex = self.vertices[unit].pop_front()?;
+                Some(filter_level::beat(vertex[lane::DENSITY], vertex[lane::C], &draw.level))
+            }
+            FETCH => {
+                self.done[LEVEL].front()?;
+                let texel = self.done[PERSPECTIVE].pop_front()?;
+                let level = self.done[LEVEL].pop_front()?[0] as usize;
+                let (u, v) = (texel[0] as u32, texel[1] as u32);
+                Some(command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear }))
+            }
+            _ => {
+                let q = self.done[FETCH].pop_front()?[0];
+                let vertex = self.vertices[unit].pop_front()?;
+                Some(displace::beat(std::array::from_fn(|lane| vertex[lane]), q, &draw.displacement))
+            }
+        }
+    }
+}
+
+/// The displaced vertex of a beat of `displace`.
+fn vertex_of(words: &[u64]) -> Vertex {
+    let mut vertex = [0; MAX_COMPONENTS];
+    vertex[..displace::SENT].copy_from_slice(&unpack(words, displace::SENT, 32));
+    vertex
+}
+
 /// The blocks.
 pub struct Pipeline {
     set: &'static WidthSet,
-    units: [Unit; 4],
+    units: [Unit; COUNT],
     ports: TrianglePorts,
     modules: Vec<Replay>,
     counts: Counts,
 }
 
+const COUNT: usize = 7;
 const BUILD: usize = 0;
 const REMESHER: usize = 1;
-const FETCH: usize = 2;
-const STRIP: usize = 3;
+const PERSPECTIVE: usize = 2;
+const LEVEL: usize = 3;
+const FETCH: usize = 4;
+const DISPLACE: usize = 5;
+const STRIP: usize = 6;
 /// The blocks of the draw's clock.
 const DRAW: std::ops::RangeFrom<usize> = REMESHER..;
 
@@ -142,7 +207,7 @@ impl Pipeline {
         self.counts
     }
     /// Beats of each block that were compared with its golden model.
-    pub fn compared(&self) -> [u64; 4] {
+    pub fn compared(&self) -> [u64; COUNT] {
         self.units.each_ref().map(|unit| unit.compared)
     }
     /// Cycles of each block that its module has followed.
@@ -239,11 +304,13 @@ impl Pipeline {
         recording: &mut Option<PipelineRecording>,
         sink: &mut dyn FnMut(usize, [Vertex; 3]),
     ) -> Result<(), PipelineError> {
+        let (components, bits) = (self.set.components, self.set.vertex_bits as u32);
         let mut offered = 0;
         let mut done = 0;
         let mut waiting: VecDeque<Waiting> = VecDeque::new();
-        // Steps that have left the queue, requests not yet taken, and whose heights come next: number of step, right.
-        let (mut gone, mut requests, mut owners) = (0, VecDeque::new(), VecDeque::new());
+        // Steps that have left the queue, and whose vertex comes next: number of step, right.
+        let (mut gone, mut owners) = (0, VecDeque::new());
+        let mut queues = Queues::default();
         let mut silent = 0;
         while done < bases.len() {
             if !self.units[REMESHER].offers()
@@ -252,10 +319,12 @@ impl Pipeline {
                 self.units[REMESHER].offer(&beat_of(self.set, base));
                 offered += 1;
             }
-            if !self.units[FETCH].offers()
-                && let Some(request) = requests.pop_front()
-            {
-                self.units[FETCH].offer(&request);
+            for unit in [PERSPECTIVE, LEVEL, FETCH, DISPLACE] {
+                if !self.units[unit].offers()
+                    && let Some(beat) = queues.next(draw, unit)
+                {
+                    self.units[unit].offer(&beat);
+                }
             }
             if !self.units[STRIP].offers()
                 && let Some(step) = waiting.pop_front_if(|front| front.lacking == 0)
@@ -281,15 +350,20 @@ impl Pipeline {
             if silent > PATIENCE {
                 return Err(PipelineError::Hangs(self.counts.cycles));
             }
-            let mut sent: [Option<Beat>; 4] = Default::default();
+            let mut sent: [Option<Beat>; COUNT] = Default::default();
             for (unit, sent) in self.units.iter_mut().zip(&mut sent).skip(REMESHER) {
                 unit.finish(sent)?;
             }
-            if let Some(words) = &sent[FETCH] {
-                let (number, right): (u64, bool) = owners.pop_front().ok_or(PipelineError::Sticky(BLOCKS[FETCH]))?;
+            for unit in [PERSPECTIVE, LEVEL, FETCH] {
+                if let Some(words) = sent[unit].take() {
+                    queues.done[unit].push_back(words);
+                }
+            }
+            if let Some(words) = &sent[DISPLACE] {
+                let (number, right): (u64, bool) = owners.pop_front().ok_or(PipelineError::Sticky(BLOCKS[DISPLACE]))?;
                 let step = &mut waiting[(number - gone) as usize];
                 let vertex = if right { &mut step.step.right_vertex } else { &mut step.step.left_vertex };
-                *vertex = draw.displace(vertex, words[0] as u32);
+                *vertex = displaced::pack(&vertex_of(words), components, bits);
                 step.lacking -= 1;
             }
             if let Some(words) = &sent[REMESHER] {
@@ -299,9 +373,7 @@ impl Pipeline {
                     [(step.sends_left(), false, &step.left_vertex), (step.sends_right(), true, &step.right_vertex)];
                 let mut lacking = 0;
                 for (_, right, vertex) in vertices.into_iter().filter(|(sends, ..)| *sends) {
-                    let request = draw.request(vertex);
-                    let (level, u, v) = (request.level as usize, request.u, request.v);
-                    requests.push_back(command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear }));
+                    queues.take(&draw.lanes.widen(vertex));
                     owners.push_back((number, right));
                     lacking += 1;
                 }
@@ -313,7 +385,7 @@ impl Pipeline {
                 let outputs = &self.units[STRIP].stage.outputs;
                 for triangle in self.ports.vertices(outputs) {
                     self.counts.triangles += 1;
-                    sink(done, triangle);
+                    sink(done, triangle.map(|vertex| displaced::unpack(&vertex, components, bits)));
                 }
                 done += usize::from(self.ports.last(outputs));
             }

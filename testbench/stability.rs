@@ -4,9 +4,14 @@
 //! Each map is there because of one weakness: a test that looks at the ends and the middle of an edge, a grid whose step is
 //! the period of the map, a feature of one sample, sides that no power of two fits, numbers at the ends of their range.
 
+use crate::frame::{FrameError, prepare, render};
 use crate::method::{Engine, Goal, Hardware, Method, MethodError, Verdict};
+use crate::pipeline::Pipeline;
+use crate::remesher::format;
 use rayon::prelude::*;
+use relief_hdl::widths::WIDTH_SETS;
 use relief_models::bake::Tolerance;
+use relief_models::failures::FailureScene;
 use relief_models::map::{HeightMap, Procedural};
 use relief_models::mesh::Progress;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -135,4 +140,17 @@ pub fn rows(methods: &[&dyn Method], engine: Engine, progress: &dyn Progress) ->
         Ok(Row { map: map.name, method: method.name(), goal: *goal, result })
     };
     work.par_iter().map(row).collect()
+}
+
+/// Cycles of a failure scene on the blocks of the width set that has its formats, each beat compared with golden.
+///
+/// # Errors
+/// The hardware is at fault, or does not hold the scene.
+pub fn cycles(failure: &FailureScene) -> Result<u64, Box<dyn std::error::Error + Send + Sync>> {
+    let set = WIDTH_SETS.iter().find(|set| format(set) == failure.format);
+    let set = set.ok_or_else(|| format!("no width set has the formats of the scene {}", failure.name))?;
+    let prepared = prepare(&failure.scene, set).map_err(|error| error.to_string())?;
+    let rendered = render(&prepared, &mut Pipeline::new(set), None, &mut std::io::sink(), &());
+    let (rendered, _) = rendered.map_err(|error: FrameError| error.to_string())?;
+    Ok(rendered.report.pipeline.cycles)
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The maps on which methods fail: claims hold there in hardware, and a claim that does not hold is noticed.
 
+use relief_models::failures::scenes;
 use relief_models::map::{HeightMap, Procedural};
 use relief_models::mesh::Progress;
 use relief_testbench::method::{Borders, Engine, Goal, METHODS, Method, MethodError, Tessellation, Uniform, Verdict};
@@ -81,7 +82,14 @@ fn stability_fails_for_no_method_in_hardware() {
     // The remesher cannot keep 2 % on 3 columns of noise.
     let meshes = 2 * count * METHODS.len() - 1;
     let expected = format!("{meshes} meshes, 1 refused: {} claims hold, 0 broken\n", 4 * count);
-    assert!(text.ends_with(&expected), "{text}");
+    let (text, frames) = text.split_once(&expected).unwrap_or_else(|| panic!("{text}"));
+    // Every scene ran as hardware, and none cracks.
+    let scenes = scenes();
+    for scene in &scenes {
+        assert!(frames.contains(&format!("\n{}: {}\n  {}\n", scene.name, scene.why, scene.does)), "{frames}");
+    }
+    assert_eq!(frames.matches(" cycles, hardware = golden\n").count(), scenes.len(), "{frames}");
+    assert!(frames.ends_with(&format!("\n{} scenes, 0 with cracks\n", scenes.len())), "{frames}");
     // Every bisection ran as hardware.
     let drawn = text.lines().filter(|line| line.trim_start().starts_with("bisector")).map(|line| {
         let cells: Vec<&str> = line.split_whitespace().collect();

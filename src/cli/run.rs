@@ -14,7 +14,7 @@ use relief_testbench::frame::{Report, prepare, render, width_set};
 use relief_testbench::output::{MadeFolder, OutputFile, OutputFolder};
 use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
 
-use super::{Meter, Outcome, Result, write_all};
+use super::{Meter, Outcome, Result, select, write_all};
 
 /// Take a scene with a height map through the displacement pipeline
 ///
@@ -28,6 +28,12 @@ pub struct Arguments {
     /// The folder for frame.png, mesh.png, mesh.obj, pipeline.vcd, pipeline.gtkw, report.json and rtl/
     #[arg(long, value_name = "DIR", default_value = "out")]
     out: PathBuf,
+    /// The width set: that of the smallest map memory that holds the maps, unless one is named
+    #[arg(long, value_name = "NAME")]
+    param: Option<String>,
+    /// The levels that a map has at most, its samples included
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=15))]
+    levels: Option<u8>,
     /// What the hardware runs in
     #[arg(long, value_enum, default_value_t = Engine::Rust)]
     engine: Engine,
@@ -49,8 +55,12 @@ const WAVEFORM: u64 = 400;
 /// Reads, draws and writes.
 pub fn run(arguments: &Arguments) -> Result {
     let begun = Instant::now();
-    let scene = scene::read(&arguments.scene)?;
-    let set = width_set(&scene);
+    let mut scene = scene::read(&arguments.scene)?;
+    scene.remesh.levels = arguments.levels.map_or(usize::MAX, usize::from);
+    let set = match &arguments.param {
+        Some(name) => select::width_set(Some(name))?,
+        None => width_set(&scene),
+    };
     let prepared = prepare(&scene, set)?;
     let mut warnings: Vec<String> = scene.warnings.iter().chain(&prepared.warnings).cloned().collect();
     for warning in &warnings {

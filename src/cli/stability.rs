@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `relief stability`: every method on the maps where methods fail.
+//! `relief stability`: every method on the maps where methods fail, and the datapath on scenes where displacement fails.
 
 use std::io::{stderr, stdout};
 
-use relief_testbench::method::{Goal, METHODS, Verdict};
-use relief_testbench::stability::{FailureMap, Row, maps, rows};
+use rayon::prelude::*;
+use relief_models::draw;
+use relief_models::failures::{self, FailureScene};
+use relief_models::mesh::Progress;
+use relief_testbench::method::{Engine, Goal, METHODS, Verdict};
+use relief_testbench::stability::{FailureMap, Row, cycles, maps, rows};
 
 use super::engine::EngineName;
 use super::{Meter, Outcome, Result, write_all};
 
-/// Tessellate the maps on which methods are known to fail, with every method
+/// Tessellate the maps on which methods are known to fail, with every method, and draw the scenes on which displacement is
 ///
 /// Each map is tessellated under a bound of 2 % of its range (of 1 where it has none), and with the triangles of a grid of 8 x 8 cells. A mesh that
 /// is not whole, or has an error above its method's claim, is BROKEN and fails the command. Errors are in percent of the
 /// map's range.
+///
+/// Each scene is drawn twice, with every base triangle and without those that cannot be seen. An edge that is open for no
+/// reason, neither the rim of the base mesh nor a counted drop, is a crack and fails the command. Errors are in pixels,
+/// against f64. See docs/stability.md.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// What computes the meshes
@@ -41,7 +49,45 @@ pub fn run(arguments: &Arguments) -> Result {
     let held = meshes.iter().filter(|made| matches!(made.verdict, Verdict::Holds { .. })).count();
     let (made, refused) = (meshes.len(), rows.len() - meshes.len());
     write_all(stdout(), &format!("\n{made} meshes, {refused} refused: {held} claims hold, {broken} broken\n"))?;
-    Ok(if broken == 0 { Outcome::Agreed } else { Outcome::Mismatch })
+    let cracked = frames(engine)?;
+    Ok(if broken == 0 && !cracked { Outcome::Agreed } else { Outcome::Mismatch })
+}
+
+/// Draws the scenes, prints a row for each, and says whether one of them cracks.
+fn frames(engine: Engine) -> std::result::Result<bool, Box<dyn std::error::Error>> {
+    let meter = Meter::new();
+    let outcomes = failures::outcomes(&meter)?;
+    let hardware: Vec<Option<u64>> = match engine {
+        Engine::Golden => vec![None; outcomes.len()],
+        _ => {
+            meter.phase("drawing in hardware", outcomes.len() as u64);
+            let run = |(failure, _): &(FailureScene, _)| cycles(failure).map(Some);
+            outcomes.par_iter().map(run).collect::<std::result::Result<_, _>>().map_err(|error| error.to_string())?
+        }
+    };
+    meter.finish();
+    let mut text = String::from("\n");
+    for ((failure, outcome), cycles) in outcomes.iter().zip(hardware) {
+        let FailureScene { name, why, does, .. } = failure;
+        text += &format!("{name}: {why}\n  {does}\n");
+        for (which, closure) in [("whole", &outcome.whole), ("drawn", &outcome.drawn)] {
+            let draw::Counts { kept, cut, culled, dropped, .. } = closure.assembled;
+            let bases = format!("{kept} base triangles, {cut} of them cut, {} culled", culled.total());
+            let gone = format!("dropped {} near, {} lane, {} grid", dropped.near, dropped.lane, dropped.grid);
+            let (triangles, invalid) = (closure.triangles, closure.invalid);
+            let open = format!("{} rim, {} dropped, {} cracks", closure.rim, closure.dropped, closure.cracks);
+            text +=
+                &format!("  {which}: {bases}, {gone}; {triangles} triangles, {invalid} invalid; open edges: {open}\n");
+        }
+        let deviation = &outcome.deviation;
+        let (max, rms, vertices) = (deviation.max, deviation.rms(), deviation.vertices);
+        let ran = cycles.map_or(String::new(), |cycles| format!("; {cycles} cycles, hardware = golden"));
+        text += &format!("  {vertices} vertices in the picture, error {max:.4} px at most, {rms:.4} px RMS{ran}\n");
+    }
+    let cracked = outcomes.iter().filter(|(_, outcome)| outcome.is_cracked()).count();
+    text += &format!("\n{} scenes, {cracked} with cracks\n", outcomes.len());
+    write_all(stdout(), &text)?;
+    Ok(cracked > 0)
 }
 
 fn table(maps: &[FailureMap], rows: &[Row]) -> String {

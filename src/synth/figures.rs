@@ -35,6 +35,15 @@ pub struct Figures {
 }
 
 impl Figures {
+    /// Those that this program was built with.
+    ///
+    /// # Errors
+    /// A sentence: the file was damaged then.
+    pub fn of_this_version() -> Result<Figures, String> {
+        let text = include_str!("../../docs/figures.json");
+        serde_json::from_str(text).map_err(|error| format!("{FIGURES}: is no file of figures: {error}"))
+    }
+
     /// Reads the file of a project; no rows where there is none yet.
     ///
     /// # Errors

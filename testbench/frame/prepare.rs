@@ -5,11 +5,11 @@
 use crate::remesher::format;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
 use relief_models::digits::{rounded_up, short};
-use relief_models::draw::{CameraView, Counts, Draw, DrawError, DrawVertex, MapInfo};
-use relief_models::light::Material;
-use relief_models::map::{self, Limit};
+use relief_models::draw::{CameraView, Counts, Draw, DrawError};
+use relief_models::map::Limit;
 use relief_models::mesh::InputError;
-use relief_models::mip_build::{BuildSize, Centring, Wrap};
+use relief_models::mip_build::BuildSize;
+use relief_models::remesher::Format;
 use relief_models::scene::{Entry, Object, Scene};
 
 /// Triangles beyond which a scene is refused: some minutes of work, and more than a gigabyte of mesh.
@@ -44,7 +44,10 @@ pub fn width_set(scene: &Scene) -> &'static WidthSet {
     sets.sort_by_key(|set| set.texel_bits);
     let holds = |set: &WidthSet| {
         let limit = limit_of(set);
-        scene.objects.iter().all(|object| limit.check([object.map.width, object.map.height], object.wrap).is_ok())
+        scene
+            .objects
+            .iter()
+            .all(|object| limit.check([object.map.width, object.map.height], object.wrap, scene.remesh.levels).is_ok())
     };
     sets.iter().find(|set| holds(set)).or(sets.last()).copied().unwrap_or(default)
 }
@@ -59,7 +62,7 @@ fn limit_of(set: &WidthSet) -> Limit {
 /// # Errors
 /// It does not fit, or would take too long.
 pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, InputError> {
-    let view = view_of(scene);
+    let view = scene.view();
     let mut prepared = Prepared { scene, objects: Vec::new(), triangles: 0, warnings: Vec::new() };
     let mut all = Counts::default();
     for (at, object) in scene.objects.iter().enumerate() {
@@ -67,22 +70,24 @@ pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, Inp
         let name = &object.map_name;
         let (width, height) = (object.map.width, object.map.height);
         limit_of(set)
-            .check([width, height], object.wrap)
+            .check([width, height], object.wrap, scene.remesh.levels)
             .map_err(|problem| refuse(format!("the map {name} of {width} x {height} samples {problem}")))?;
-        let draw = draw_of(scene, object, &view, set).map_err(|cause| match cause {
+        let draw = scene.draw(object, &view, &format(set)).map_err(|cause| match cause {
             DrawError::Focal { .. } | DrawError::Extent { .. } => scene.source.error(Entry::Camera, cause),
+            DrawError::Format { .. } => {
+                let fits = |other: &&WidthSet| scene.draw(object, &view, &format(other)).is_ok();
+                refuse(format!("width set {}: {cause}; {}", set.name, sets_that(fits)))
+            }
             _ => refuse(cause.to_string()),
         })?;
         let (counts, triangles) = amount(&draw);
         prepared.triangles += triangles;
-        add(&mut all, &counts);
-        let warnings = warnings_of(scene, object, &draw, &counts);
+        all.add(&counts);
+        let mut warnings = warnings_of(scene, object, &draw, &counts);
+        warnings.extend(beyond_grid(scene, object, &view, set, &counts));
         let warnings = warnings.into_iter().map(|warning| scene.source.error(Entry::Object(at), warning).to_string());
         prepared.warnings.extend(warnings);
-        let levels = map::levels([width, height], object.wrap).len();
-        let (wrap, poles) = (object.wrap, object.poles);
-        let size = BuildSize { width, height, wrap, centring: Centring::Node, levels, poles };
-        prepared.objects.push(PreparedObject { object, size, draw });
+        prepared.objects.push(PreparedObject { object, size: scene.levels(object), draw });
     }
     let triangles = rounded_up(prepared.triangles as f64) as u64;
     if prepared.triangles > MOST_TRIANGLES {
@@ -112,40 +117,6 @@ pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, Inp
     Ok(prepared)
 }
 
-/// The camera for the host.
-fn view_of(scene: &Scene) -> CameraView {
-    let camera = &scene.camera;
-    CameraView {
-        eye: camera.eye,
-        target: camera.target,
-        up: camera.up,
-        fov_y: camera.fov_y_deg.to_radians(),
-        near: camera.near,
-        far: camera.far,
-        viewport: camera.viewport,
-        cell_px: scene.remesh.cell_px,
-    }
-}
-
-/// The draw of an object: constants and vertex memory.
-fn draw_of(scene: &Scene, object: &Object, view: &CameraView, set: &WidthSet) -> Result<Draw, DrawError> {
-    let vertices: Vec<DrawVertex> = object
-        .mesh
-        .vertices
-        .iter()
-        .map(|vertex| DrawVertex { position: vertex.position, normal: vertex.normal, uv: vertex.uv })
-        .collect();
-    let repeat = object.wrap.map(|wrap| wrap == Wrap::Repeat);
-    let (width, height) = (object.map.width, object.map.height);
-    let map = MapInfo { width, height, repeat, levels: map::levels([width, height], object.wrap).len() };
-    let mut draw = Draw::new(view, &vertices, &object.mesh.triangles, &map, object.displacement, &format(set))?;
-    draw.cull = scene.remesh.cull;
-    if let Some(colour) = object.colour {
-        draw.material = Material::plain(colour);
-    }
-    Ok(draw)
-}
-
 /// What becomes of the base triangles, and about how many triangles they become.
 fn amount(draw: &Draw) -> (Counts, u64) {
     let (mut counts, mut triangles) = (Counts::default(), 0);
@@ -157,24 +128,9 @@ fn amount(draw: &Draw) -> (Counts, u64) {
     (counts, triangles)
 }
 
-fn add(all: &mut Counts, counts: &Counts) {
-    let Counts { kept, culled, dropped, .. } = counts;
-    all.kept += kept;
-    all.culled.left += culled.left;
-    all.culled.right += culled.right;
-    all.culled.top += culled.top;
-    all.culled.bottom += culled.bottom;
-    all.culled.near += culled.near;
-    all.culled.far += culled.far;
-    all.dropped.near += dropped.near;
-    all.dropped.lane += dropped.lane;
-    all.dropped.grid += dropped.grid;
-}
-
 fn warnings_of(scene: &Scene, object: &Object, draw: &Draw, counts: &Counts) -> Vec<String> {
     let mut warnings = Vec::new();
-    let has_seam = object.poles || object.wrap.contains(&Wrap::Repeat);
-    if has_seam && !draw.seams_are_exact() {
+    if object.has_seam() && !draw.seams_are_exact() {
         let near = short(rounded_up(draw.exact_seams_near()));
         warnings.push(format!(
             "the seam of its map may open, because the object reaches too far away for `near` {}; a `near` of at least \
@@ -189,23 +145,48 @@ fn warnings_of(scene: &Scene, object: &Object, draw: &Draw, counts: &Counts) -> 
              picture, so the mesh is open there; an `eye` farther away keeps them whole"
         ));
     }
-    let beyond = counts.dropped.lane + counts.dropped.grid;
-    if beyond > 0 {
-        warnings.push(format!(
-            "{beyond} of its {all} base triangles are left out, because the voxel grid does not reach them; a greater \
-             `cell_px` is what reaches farther"
-        ));
-    }
     warnings
+}
+
+/// What the grid does not reach, how many bits would, and who has them.
+fn beyond_grid(scene: &Scene, object: &Object, view: &CameraView, set: &WidthSet, counts: &Counts) -> Option<String> {
+    let (all, beyond) = (object.mesh.triangles.len(), counts.dropped.lane + counts.dropped.grid);
+    if beyond == 0 {
+        return None;
+    }
+    let bits = set.coordinate_bits;
+    let left = |coordinate_bits: usize| {
+        let format = Format { coordinate_bits: coordinate_bits as u32, ..format(set) };
+        scene.draw(object, view, &format).map_or(u64::MAX, |draw| amount(&draw).0.dropped.grid)
+    };
+    let wider = (bits + 1..=24).find(|bits| left(*bits) == 0).map(|needed| {
+        let enough = |set: &&WidthSet| set.coordinate_bits >= needed && scene.draw(object, view, &format(set)).is_ok();
+        format!(", or {needed} bits of a grid coordinate: {}", sets_that(enough))
+    });
+    Some(format!(
+        "{beyond} of its {all} base triangles are left out, because the voxel grid of {bits} bits does not reach them; a \
+         greater `cell_px` is what reaches farther{}",
+        wider.unwrap_or_default()
+    ))
+}
+
+/// The names of the width sets for which something holds, as the end of a sentence.
+fn sets_that(hold: impl Fn(&&WidthSet) -> bool) -> String {
+    let names: Vec<_> = WIDTH_SETS.iter().filter(hold).map(|set| set.name).collect();
+    match names[..] {
+        [] => "no width set of the list has it".into(),
+        [one] => format!("the width set {one} has it"),
+        _ => format!("the width sets {} have it", names.join(", ")),
+    }
 }
 
 /// What would make a scene small enough: tried, not guessed.
 fn remedy(scene: &Scene, set: &WidthSet) -> String {
-    let view = view_of(scene);
+    let view = scene.view();
     let fits = |view: &CameraView| {
         let mut triangles = 0;
         for object in &scene.objects {
-            match draw_of(scene, object, view, set) {
+            match scene.draw(object, view, &format(set)) {
                 Ok(draw) => triangles += amount(&draw).1,
                 Err(_) => return false,
             }
@@ -294,8 +275,8 @@ mod tests {
         let ramp = relief_models::map::Procedural::Ramp;
         scene.objects[0].map = relief_models::map::HeightMap::procedural(ramp, 2050, 3);
         let object = &scene.objects[0];
-        let draw = draw_of(&scene, object, &view_of(&scene), set).unwrap();
-        let (wrap, centring) = (object.wrap, Centring::Node);
+        let draw = scene.draw(object, &scene.view(), &format(set)).unwrap();
+        let (wrap, centring) = (object.wrap, relief_models::mip_build::Centring::Node);
         let size = BuildSize { width: 2050, height: 3, wrap, centring, levels: 3, poles: false };
         let objects = vec![PreparedObject { object, size, draw }];
         let prepared = Prepared { scene: &scene, objects, triangles: 0, warnings: Vec::new() };
