@@ -114,6 +114,25 @@ pub struct Block {
 /// Stages of the pipeline that are golden models so far, in order.
 const GOLDEN: &[&str] = &["vertex_transform", "cull", "face_normal", "light", "raster"];
 
+/// The cycles in which a scene goes through the pipeline, without light or picture.
+///
+/// # Errors
+/// The hardware is at fault.
+pub fn cycles(prepared: &Prepared<'_>, pipeline: &mut Pipeline) -> Result<u64, FrameError> {
+    for (at, PreparedObject { object, size, draw }) in prepared.objects.iter().enumerate() {
+        let fail = |cause: PipelineError| {
+            let source = &prepared.scene.source;
+            FrameError::Pipeline(source.error(Entry::Object(at), cause.to_string()), Box::new(cause))
+        };
+        let pyramid = pipeline.build(size, &object.map.samples).map_err(fail)?;
+        pipeline.load(&pyramid).map_err(fail)?;
+        let pieces = (0..draw.triangles.len()).map(|index| draw.assemble(index));
+        let bases: Vec<_> = pieces.flat_map(|assembled| assembled.pieces().to_vec()).collect();
+        pipeline.draw(draw, &bases, &mut None, &mut |_, _| {}).map_err(fail)?;
+    }
+    Ok(pipeline.counts().cycles)
+}
+
 /// Takes a scene through the pipeline. `obj` gets the displaced mesh as Wavefront OBJ: a group `base_<I>` for each base
 /// triangle, counted over all objects.
 ///

@@ -4,7 +4,7 @@
 //! Each map is there because of one weakness: a test that looks at the ends and the middle of an edge, a grid whose step is
 //! the period of the map, a feature of one sample, sides that no power of two fits, numbers at the ends of their range.
 
-use crate::frame::{FrameError, prepare, render};
+use crate::frame::{self, prepare};
 use crate::method::{Engine, Goal, Hardware, Method, MethodError, Verdict};
 use crate::pipeline::Pipeline;
 use crate::remesher::format;
@@ -150,7 +150,5 @@ pub fn cycles(failure: &FailureScene) -> Result<u64, Box<dyn std::error::Error +
     let set = WIDTH_SETS.iter().find(|set| format(set) == failure.format);
     let set = set.ok_or_else(|| format!("no width set has the formats of the scene {}", failure.name))?;
     let prepared = prepare(&failure.scene, set).map_err(|error| error.to_string())?;
-    let rendered = render(&prepared, &mut Pipeline::new(set), None, &mut std::io::sink(), &());
-    let (rendered, _) = rendered.map_err(|error: FrameError| error.to_string())?;
-    Ok(rendered.report.pipeline.cycles)
+    Ok(frame::cycles(&prepared, &mut Pipeline::new(set)).map_err(|error| error.to_string())?)
 }

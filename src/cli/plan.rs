@@ -2,15 +2,16 @@
 //! `relief plan`: the least hardware that a scene needs.
 
 use std::fmt::Write as _;
-use std::io::{sink, stderr, stdout};
+use std::io::{stderr, stdout};
 use std::path::PathBuf;
 
 use relief::synth::cost::{BLOCKS, Cost, PART, Planes};
 use relief::synth::figures::Figures;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
+use relief_models::mesh::Progress;
 use relief_models::plan::{Breaks, Plan, PlanError, Planner, Trial, Widths};
 use relief_models::scene::{self, Entry, Scene};
-use relief_testbench::frame::{prepare, render};
+use relief_testbench::frame::{cycles, prepare};
 use relief_testbench::pipeline::Pipeline;
 use relief_testbench::remesher::format;
 use serde::Serialize;
@@ -135,8 +136,9 @@ fn hardware(
     scene.remesh.levels = plan.widths.levels;
     let prepared = prepare(&scene, set)?;
     let mut pipeline = Pipeline::new(set);
-    let (rendered, _) = render(&prepared, &mut pipeline, None, &mut sink(), meter)?;
-    Ok(rendered.report.hardware.iter().map(|block| block.beats).sum())
+    meter.phase("drawing in hardware", 0);
+    cycles(&prepared, &mut pipeline)?;
+    Ok(pipeline.compared().iter().sum())
 }
 
 /// What each choice alone saves against the default set.
