@@ -8,6 +8,7 @@ mod delay;
 mod dsp_product;
 mod flow;
 mod leading;
+mod line_table;
 mod product;
 mod shift_right;
 
@@ -15,5 +16,6 @@ pub use delay::{Delay, LongDelay};
 pub use dsp_product::DspProduct;
 pub use flow::Flow;
 pub use leading::Leading;
+pub use line_table::LineTable;
 pub use product::{Product2x2, Product3x1, Product3x2};
 pub use shift_right::ShiftRight;

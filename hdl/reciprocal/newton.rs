@@ -91,7 +91,7 @@ impl Logic for Newton {
         self.s6_m.go.next = self.go.val();
         self.s6_m.value.next = self.m.val().get_bits::<31>(0);
         self.s5_fall.go.next = self.go.val();
-        self.s5_fall.a.next = bit_cast_to::<S<14>>(self.lines.fall.val());
+        self.s5_fall.a.next = bit_cast_to::<S<14>>(self.lines.slope.val());
         self.s5_fall.b.next = bit_cast_to::<S<12>>(self.s2_h.q.val());
 
         self.s11_seed.go.next = self.go.val();

@@ -111,7 +111,7 @@ impl Logic for InverseRoot {
         self.s11_x.go.next = self.go.val();
         self.s11_x.value.next = self.number.val();
         self.s6_fall.go.next = self.go.val();
-        self.s6_fall.a.next = bit_cast_to::<S<12>>(self.lines.fall.val());
+        self.s6_fall.a.next = bit_cast_to::<S<12>>(self.lines.slope.val());
         self.s6_fall.b.next = bit_cast_to::<S<12>>(self.s3_h.q.val());
         self.s22_seed.go.next = self.go.val();
         self.s22_seed.value.next = self.s18_seed.delayed.val();
