@@ -11,6 +11,7 @@ pub mod mip_fetch;
 pub mod perspective_correct;
 pub mod pipeline;
 pub mod ports;
+pub mod power;
 pub mod primitives;
 pub mod reciprocal;
 pub mod remesher;

@@ -17,5 +17,5 @@ pub use dsp_product::DspProduct;
 pub use flow::Flow;
 pub use leading::Leading;
 pub use line_table::LineTable;
-pub use product::{Product2x2, Product3x1, Product3x2};
+pub use product::{Product2x1, Product2x2, Product3x1, Product3x2};
 pub use shift_right::ShiftRight;

@@ -8,12 +8,63 @@
 //! a cycle, as the sums want them, and no register feeds two multipliers that lie apart.
 //!
 //! | block      | a            | b            |   Error: 0, the product is whole if P >= A + B, modulo 2^P otherwise
+//! | Product2x1 | signed to 35 | signed 18    |   Latency 5, interval 1
 //! | Product2x2 | signed to 35 | signed to 35 |   Latency 6, interval 1
 //! | Product3x1 | signed to 52 | signed 18    |   Latency 6, interval 1
 //! | Product3x2 | signed to 52 | signed to 35 |   Latency 8, interval 1
 
 use super::DspProduct;
 use crate::prelude::*;
+
+/// Factors of two digits and of one, 17 < A <= 35.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct Product2x1<const A: usize, const P: usize> {
+    pub clock: Input<ClockReset>,
+    pub go: Input<Bit>,
+    pub a: Input<S<A>>,
+    pub b: Input<S<18>>,
+    pub p: Output<WideS<P>>,
+    s1_a_high: DataRegister<S<18>>,
+    s1_b: DataRegister<S<18>>,
+    s3_0: DspProduct<18, 18, 36>,
+    s4_1: DspProduct<18, 18, 36>,
+    s4_first: DataRegister<WideS<36>>,
+    s5_sum: DataRegister<WideS<P>>,
+}
+
+impl<const A: usize, const P: usize> Product2x1<A, P> {
+    /// Cycles from factors to product.
+    pub const LATENCY: usize = DspProduct::<18, 18, 36>::LATENCY + 2;
+}
+
+impl<const A: usize, const P: usize> Logic for Product2x1<A, P> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, s3_0, s4_1);
+        dff_setup!(self, clock, s1_a_high, s1_b, s4_first, s5_sum);
+        self.p.next = self.s5_sum.q.val();
+        self.s3_0.go.next = self.go.val();
+        self.s3_0.a.next = bit_cast_to::<S<18>>(self.a.val().get_bits::<17>(0));
+        self.s3_0.b.next = self.b.val();
+        self.s4_1.go.next = self.go.val();
+        self.s4_1.a.next = self.s1_a_high.q.val();
+        self.s4_1.b.next = self.s1_b.q.val();
+        if self.go.val() {
+            self.s1_a_high.d.next = bit_cast_to::<S<18>>(self.a.val() >> 17);
+            self.s1_b.d.next = self.b.val();
+            self.s4_first.d.next = self.s3_0.p.val();
+            self.s5_sum.d.next =
+                bit_cast_to::<WideS<P>>(self.s4_first.q.val()) + (bit_cast_to::<WideS<P>>(self.s4_1.p.val()) << 17);
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name(format!("product_{A}x18_to_{P}"))
+    }
+}
+
+latches! { [const A: usize, const P: usize] Product2x1<A, P>: s1_a_high, s1_b, s3_0, s4_1, s4_first, s5_sum }
 
 /// Factors of two digits each, 17 < A, B <= 35.
 #[derive(Clone, Debug, Default, LogicBlock)]

@@ -2,7 +2,7 @@
 //! The parts of straight pipelines against integers of the machine: products, shift, leading zeros and delay, under a `go`
 //! that falls now and then.
 
-use relief_hdl::pipeline::{Delay, Leading, LongDelay, Product2x2, Product3x1, Product3x2, ShiftRight};
+use relief_hdl::pipeline::{Delay, Leading, LongDelay, Product2x1, Product2x2, Product3x1, Product3x2, ShiftRight};
 use relief_hdl::prelude::*;
 use std::collections::VecDeque;
 
@@ -78,6 +78,7 @@ macro_rules! product {
         }
     };
 }
+product!(product_of_two_digits_and_one, Product2x1<35, 53>, 35, 18);
 product!(product_of_two_and_two_digits, Product2x2<35, 35, 70>, 35, 35);
 product!(product_of_two_and_two_short_digits, Product2x2<25, 19, 44>, 25, 19);
 product!(product_of_three_digits_and_one, Product3x1<52, 70>, 52, 18);
