@@ -12,10 +12,12 @@
 mod inverse_root;
 mod normalize;
 mod table;
+mod unit_vector;
 
 pub use inverse_root::InverseRoot;
 pub use normalize::Normalize;
 pub use table::RootTable;
+pub use unit_vector::UnitVector;
 
 use crate::pipeline::Flow;
 use crate::prelude::*;

@@ -13,14 +13,10 @@
 //! | s3 .. s7       | its leading zeros                             | |
 //! | s8, s9_long    | the vector shifted left by them               | signed 33 |
 //! | s10_short       | its 16 upper bits, rounded half up            | at most 2^16: signed 18 |
-//! | s11 .. s14_square | the sum of their squares                      | at most 3 2^32: 34 bits |
-//! | s15_square     | two bits less if it has 33 or 34              | UQ2.30, [1, 4) |
-//! | s16 .. s38     | its reciprocal root                           | UQ0.32 |
-//! | s39 .. s42_unit | components times root                         | signed 50, of which the upper 33 matter |
-//! | s43_unit       | rounded half up                               | SQ1.16 |
+//! | s11 .. s43     | over its length, [`UnitVector`]               | SQ1.16 |
 
-use super::InverseRoot;
-use crate::pipeline::{DspProduct, Leading, LongDelay};
+use super::UnitVector;
+use crate::pipeline::Leading;
 use crate::prelude::*;
 
 /// Normaliser of vectors.
@@ -47,23 +43,7 @@ pub struct Normalize {
     s8_fine: DataRegister<U<5>>,
     s9_long: DataRegister<Lanes<3, 33>>,
     s10_short: DataRegister<Lanes<3, 18>>,
-    s13_x: DspProduct<18, 18, 36>,
-    s13_y: DspProduct<18, 18, 36>,
-    s13_z: DspProduct<18, 18, 36>,
-    s14_square: DataRegister<U<34>>,
-    s15_square: DataRegister<U<32>>,
-    s15_wide: DataRegister<Bit>,
-    inverse: InverseRoot,
-    s38_short: LongDelay<54, 8, 10, 10>,
-    s42_wide: LongDelay<1, 7, 10, 10>,
-    s41_x_low: DspProduct<18, 18, 36>,
-    s41_x_high: DspProduct<18, 18, 36>,
-    s41_y_low: DspProduct<18, 18, 36>,
-    s41_y_high: DspProduct<18, 18, 36>,
-    s41_z_low: DspProduct<18, 18, 36>,
-    s41_z_high: DspProduct<18, 18, 36>,
-    s42_unit: DataRegister<Lanes<3, 36>>,
-    s43_unit: DataRegister<Lanes<3, 18>>,
+    unit_vector: UnitVector,
     vector_x: Wire<S<32>>,
     vector_y: Wire<S<32>>,
     vector_z: Wire<S<32>>,
@@ -72,24 +52,7 @@ pub struct Normalize {
     size_z: Wire<S<32>>,
     zeros: Wire<U<5>>,
     coarse: Wire<U<5>>,
-    wide: Wire<Bit>,
-    short_x: Wire<S<18>>,
-    short_y: Wire<S<18>>,
-    short_z: Wire<S<18>>,
-    late_x: Wire<S<18>>,
-    late_y: Wire<S<18>>,
-    late_z: Wire<S<18>>,
-    root_low: Wire<S<18>>,
-    root_high: Wire<S<18>>,
-    unit_x: Wire<S<36>>,
-    unit_y: Wire<S<36>>,
-    unit_z: Wire<S<36>>,
-    units_x: Wire<Lanes<3, 36>>,
-    units_y: Wire<Lanes<3, 36>>,
-    units: Wire<Lanes<3, 36>>,
-    half_units: Wire<Lanes<3, 36>>,
     one: Constant<Lanes<3, 33>>,
-    one_unit: Constant<Lanes<3, 36>>,
 }
 
 impl Default for Normalize {
@@ -115,23 +78,7 @@ impl Default for Normalize {
             s8_fine: DataRegister::default(),
             s9_long: DataRegister::default(),
             s10_short: DataRegister::default(),
-            s13_x: DspProduct::default(),
-            s13_y: DspProduct::default(),
-            s13_z: DspProduct::default(),
-            s14_square: DataRegister::default(),
-            s15_square: DataRegister::default(),
-            s15_wide: DataRegister::default(),
-            inverse: InverseRoot::default(),
-            s38_short: LongDelay::default(),
-            s42_wide: LongDelay::default(),
-            s41_x_low: DspProduct::default(),
-            s41_x_high: DspProduct::default(),
-            s41_y_low: DspProduct::default(),
-            s41_y_high: DspProduct::default(),
-            s41_z_low: DspProduct::default(),
-            s41_z_high: DspProduct::default(),
-            s42_unit: DataRegister::default(),
-            s43_unit: DataRegister::default(),
+            unit_vector: UnitVector::default(),
             vector_x: Wire::default(),
             vector_y: Wire::default(),
             vector_z: Wire::default(),
@@ -140,24 +87,7 @@ impl Default for Normalize {
             size_z: Wire::default(),
             zeros: Wire::default(),
             coarse: Wire::default(),
-            wide: Wire::default(),
-            short_x: Wire::default(),
-            short_y: Wire::default(),
-            short_z: Wire::default(),
-            late_x: Wire::default(),
-            late_y: Wire::default(),
-            late_z: Wire::default(),
-            root_low: Wire::default(),
-            root_high: Wire::default(),
-            unit_x: Wire::default(),
-            unit_y: Wire::default(),
-            unit_z: Wire::default(),
-            units_x: Wire::default(),
-            units_y: Wire::default(),
-            units: Wire::default(),
-            half_units: Wire::default(),
             one: Constant::new(Lanes::new([1; 3])),
-            one_unit: Constant::new(Lanes::new([1; 3])),
         }
     }
 }
@@ -170,15 +100,10 @@ impl Normalize {
 impl Logic for Normalize {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, leading, s13_x, s13_y, s13_z, inverse, s38_short, s42_wide);
-        clock!(self, clock, s41_x_low, s41_x_high, s41_y_low, s41_y_high, s41_z_low, s41_z_high);
+        clock!(self, clock, leading, unit_vector);
         dff_setup!(self, clock, s1_size_x, s1_size_y, s1_size_z, s1_vector, s2_any, s2_vector, s3_vector, s4_vector);
-        dff_setup!(
-            self, clock, s5_vector, s6_vector, s7_vector, s8_long, s8_fine, s9_long, s10_short, s14_square, s15_square,
-            s15_wide
-        );
-        dff_setup!(self, clock, s42_unit, s43_unit);
-        self.unit.next = self.s43_unit.q.val();
+        dff_setup!(self, clock, s5_vector, s6_vector, s7_vector, s8_long, s8_fine, s9_long, s10_short);
+        self.unit.next = self.unit_vector.unit.val();
 
         // s1: the minimum becomes itself, which is right without a sign.
         self.vector_x.next = self.components.val().get_bit(0);
@@ -203,70 +128,9 @@ impl Logic for Normalize {
         self.zeros.next = bit_cast_to::<U<5>>(self.leading.zeros.val()) ^ 0x10;
         self.coarse.next = self.zeros.val() & 0x18;
 
-        // s11 to s15
-        self.short_x.next = self.s10_short.q.val().get_bit(0);
-        self.short_y.next = self.s10_short.q.val().get_bit(1);
-        self.short_z.next = self.s10_short.q.val().get_bit(2);
-        self.s13_x.go.next = self.go.val();
-        self.s13_x.a.next = self.short_x.val();
-        self.s13_x.b.next = self.short_x.val();
-        self.s13_y.go.next = self.go.val();
-        self.s13_y.a.next = self.short_y.val();
-        self.s13_y.b.next = self.short_y.val();
-        self.s13_z.go.next = self.go.val();
-        self.s13_z.a.next = self.short_z.val();
-        self.s13_z.b.next = self.short_z.val();
-        self.wide.next = self.s14_square.q.val().get_bits::<2>(32).any();
-
-        // s16 to s38
-        self.inverse.go.next = self.go.val();
-        self.inverse.number.next = self.s15_square.q.val();
-        self.s38_short.go.next = self.go.val();
-        self.s38_short.value.next = bit_cast_to::<U<54>>(bit_cast_to::<U<18>>(self.short_x.val()))
-            | (bit_cast_to::<U<54>>(bit_cast_to::<U<18>>(self.short_y.val())) << 18)
-            | (bit_cast_to::<U<54>>(bit_cast_to::<U<18>>(self.short_z.val())) << 36);
-        self.s42_wide.go.next = self.go.val();
-        self.s42_wide.value.next = bit_cast_to::<U<1>>(self.s15_wide.q.val());
-
-        // s39 to s42
-        self.late_x.next = bit_cast_to::<S<18>>(self.s38_short.delayed.val().get_bits::<18>(0));
-        self.late_y.next = bit_cast_to::<S<18>>(self.s38_short.delayed.val().get_bits::<18>(18));
-        self.late_z.next = bit_cast_to::<S<18>>(self.s38_short.delayed.val().get_bits::<18>(36));
-        self.root_low.next = bit_cast_to::<S<18>>(self.inverse.root.val().get_bits::<17>(0));
-        self.root_high.next = bit_cast_to::<S<18>>(self.inverse.root.val().get_bits::<15>(17));
-        self.s41_x_low.go.next = self.go.val();
-        self.s41_x_low.a.next = self.late_x.val();
-        self.s41_x_low.b.next = self.root_low.val();
-        self.s41_x_high.go.next = self.go.val();
-        self.s41_x_high.a.next = self.late_x.val();
-        self.s41_x_high.b.next = self.root_high.val();
-        self.s41_y_low.go.next = self.go.val();
-        self.s41_y_low.a.next = self.late_y.val();
-        self.s41_y_low.b.next = self.root_low.val();
-        self.s41_y_high.go.next = self.go.val();
-        self.s41_y_high.a.next = self.late_y.val();
-        self.s41_y_high.b.next = self.root_high.val();
-        self.s41_z_low.go.next = self.go.val();
-        self.s41_z_low.a.next = self.late_z.val();
-        self.s41_z_low.b.next = self.root_low.val();
-        self.s41_z_high.go.next = self.go.val();
-        self.s41_z_high.a.next = self.late_z.val();
-        self.s41_z_high.b.next = self.root_high.val();
-        self.unit_x.next =
-            bit_cast_to::<S<36>>(self.s41_x_low.p.val() >> 17) + bit_cast_to::<S<36>>(self.s41_x_high.p.val());
-        self.unit_y.next =
-            bit_cast_to::<S<36>>(self.s41_y_low.p.val() >> 17) + bit_cast_to::<S<36>>(self.s41_y_high.p.val());
-        self.unit_z.next =
-            bit_cast_to::<S<36>>(self.s41_z_low.p.val() >> 17) + bit_cast_to::<S<36>>(self.s41_z_high.p.val());
-        self.units_x.next = bit_cast_to::<Lanes<3, 36>>(self.unit_x.val());
-        self.units_y.next = self.units_x.val().replace_bit(1, self.unit_y.val());
-        self.units.next = self.units_y.val().replace_bit(2, self.unit_z.val());
-
-        // s43: 31 bits behind the point of the root, or 32, of which 17 are gone and one is the half.
-        self.half_units.next = self.s42_unit.q.val() >> 13;
-        if self.s42_wide.delayed.val().any() {
-            self.half_units.next = self.s42_unit.q.val() >> 14;
-        }
+        // s11 to s43
+        self.unit_vector.go.next = self.go.val();
+        self.unit_vector.short.next = self.s10_short.q.val();
 
         if self.go.val() {
             self.s1_size_x.d.next = bit_cast_to::<U<32>>(self.size_x.val());
@@ -285,16 +149,6 @@ impl Logic for Normalize {
             self.s8_fine.d.next = self.zeros.val() & 0x07;
             self.s9_long.d.next = self.s8_long.q.val() << self.s8_fine.q.val();
             self.s10_short.d.next = bit_cast_to::<Lanes<3, 18>>(((self.s9_long.q.val() >> 15) + self.one.val()) >> 1);
-            self.s14_square.d.next = bit_cast_to::<U<34>>(self.s13_x.p.val())
-                + bit_cast_to::<U<34>>(self.s13_y.p.val())
-                + bit_cast_to::<U<34>>(self.s13_z.p.val());
-            self.s15_wide.d.next = self.wide.val();
-            self.s15_square.d.next = self.s14_square.q.val().get_bits::<32>(0);
-            if self.wide.val() {
-                self.s15_square.d.next = self.s14_square.q.val().get_bits::<32>(2);
-            }
-            self.s42_unit.d.next = self.units.val();
-            self.s43_unit.d.next = bit_cast_to::<Lanes<3, 18>>((self.half_units.val() + self.one_unit.val()) >> 1);
         }
     }
 
@@ -307,7 +161,7 @@ ports! {
     [] Normalize {
         inputs: go, components;
         outputs: unit;
-        blocks: leading, inverse, s38_short, s42_wide;
-        state: leading, s13_x, s13_y, s13_z, inverse, s38_short, s42_wide, s41_x_low, s41_x_high, s41_y_low, s41_y_high, s41_z_low, s41_z_high, s1_size_x, s1_size_y, s1_size_z, s1_vector, s2_any, s2_vector, s3_vector, s4_vector, s5_vector, s6_vector, s7_vector, s8_long, s8_fine, s9_long, s10_short, s14_square, s15_square, s15_wide, s42_unit, s43_unit
+        blocks: leading, unit_vector;
+        state: leading, unit_vector, s1_size_x, s1_size_y, s1_size_z, s1_vector, s2_any, s2_vector, s3_vector, s4_vector, s5_vector, s6_vector, s7_vector, s8_long, s8_fine, s9_long, s10_short
     }
 }
