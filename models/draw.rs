@@ -499,8 +499,8 @@ impl Draw {
             axes,
             displacement,
             lanes,
-            // The pixel is 2 / focal wide at most 32 and at least 2^-17: exponents 8..=48 after the saturation.
-            pixel: Pixel { scale, shift: shift.clamp(8, 48) as u32 },
+            // The pixel is 1 / focal wide, at most 16 and at least 2^-16: exponents 19..=39.
+            pixel: Pixel { scale, shift: shift.clamp(16, 48) as u32 },
             material: Material::TERRAIN,
             records,
             triangles: triangles.to_vec(),
@@ -633,12 +633,9 @@ impl Draw {
     /// Colour of a displaced triangle by its face.
     pub fn shade(&self, triangle: [Vertex; 3], lights: &[Light]) -> [u8; 3] {
         let normal = face_normal::golden(&self.pixel, triangle.map(|v| [v[0], v[1], v[2]]));
-        let Pixel { scale, shift } = self.pixel;
-        // Towards the eye from vertex 0, z = 1 in 32 fraction bits: 22 + 24 bits of product, 24 + 8 bits and more go.
-        let slope = |x: i64| -((i128::from(x) * i128::from(scale)) << 32 >> (shift + 8)) as i64;
-        let view = normalize([slope(triangle[0][displaced::X]), slope(triangle[0][displaced::Y]), -1 << 32]);
-        let albedo = self.material.albedo(triangle.map(|v| v[displaced::HEIGHT]));
-        light::golden(&self.material, lights, albedo, normal, view)
+        let position = [triangle[0][displaced::X], triangle[0][displaced::Y]];
+        let heights = triangle.map(|v| v[displaced::HEIGHT]);
+        light::shade(&self.material, lights, &self.pixel, position, heights, normal)
     }
 
     /// World position of a displaced vertex: a function of X', Y' and c' only, so equal integers give equal points.

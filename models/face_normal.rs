@@ -16,11 +16,12 @@
 //! | X', Y', c' | SQ13.8, SQ13.8, UQ0.31 | pixels, 1 |
 //! | normal | 3 x SQ1.16 | unit vector; (0, 0, -1) for three equal points |
 //!
-//! Error: that of [`normalize`], 3.3e-5 rad; what the rounding of X', Y' and c' did to the triangle is not in it.
+//! Error: that of [`normalize`](crate::rsqrt::normalize), 3.3e-5 rad; what the rounding of X', Y' and c' did to the triangle
+//! is not in it.
 //!
 //! Example: c' equal at all three vertices (a plane at one depth): N = (0, 0, -1).
 
-use crate::rsqrt::normalize;
+use crate::rsqrt::normalize_wide;
 use serde::{Deserialize, Serialize};
 
 /// The size of a pixel at distance 1, `scale 2^-shift`.
@@ -28,30 +29,27 @@ use serde::{Deserialize, Serialize};
 pub struct Pixel {
     /// Mantissa, 24 bits with the leading one set.
     pub scale: u32,
-    /// Exponent, `8..=48`.
+    /// Exponent, `16..=48`.
     pub shift: u32,
 }
 
 /// The normal of the triangle with the vertices (X', Y', c').
 pub fn golden(pixel: &Pixel, [a, b, c]: [[i64; 3]; 3]) -> [i32; 3] {
-    // 23 bits and sign in X and Y, 31 bits and sign in c.
+    // 22 bits and sign in X and Y, 31 bits and sign in c.
     let d = |v: [i64; 3]| [0, 1, 2].map(|k| v[k] - a[k]);
     let ([x1, y1, c1], [x2, y2, c2]) = (d(b), d(c));
-    // 31 + 23 bits, twice; 23 + 23 bits, twice.
+    // Twice the area of a triangle, which is at most that of the box round it: 31 + 22 bits and sign, twice; 22 + 22 bits.
     let (nx, ny, area) = (c1 * y2 - c2 * y1, x1 * c2 - x2 * c1, x1 * y2 - x2 * y1);
-    // 47 + 31 bits and 55 + 22 bits: 79.
+    // The determinant of three rows (x, y, c), at most 4 2^21 2^21 2^31: 75 bits and sign. No term has more.
     let nz =
         i128::from(area) * i128::from(a[2]) - i128::from(nx) * i128::from(a[0]) - i128::from(ny) * i128::from(a[1]);
     // x and y count pixels (2^-8), and the pixel's size carries them to view space: N is (nx, ny, 2^-8 pixel nz).
-    // 16 further bits keep the small triangles; 79 + 24 bits of product.
+    // 16 further bits keep the small triangles; 75 + 24 bits of product, of which at least 8 go.
     let (wide_x, wide_y) = (i128::from(nx) << 16, i128::from(ny) << 16);
     let shift = 8 + pixel.shift;
     let wide_z = (nz * i128::from(pixel.scale)) >> (shift - 16);
     let sign = if area > 0 { -1 } else { 1 };
-    let wide = [wide_x, wide_y, wide_z].map(|v| sign * v);
-    // A common shift to 62 bits; what goes is far below the 16 leading bits.
-    let bits = wide.iter().map(|v| 128 - v.unsigned_abs().leading_zeros()).max().unwrap_or(0);
-    let n = normalize(wide.map(|v| (v >> bits.saturating_sub(62)) as i64));
+    let n = normalize_wide([wide_x, wide_y, wide_z].map(|v| sign * v));
     if n == [0; 3] { [0, 0, -1 << 16] } else { n }
 }
 

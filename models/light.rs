@@ -12,10 +12,13 @@
 //! | albedo, ambient, light, specular | UQ1.16, at most 1.0 (a light may have up to 4.0) |
 //! | colour | 3 x 8 bits, saturating; 255 is 1.0 |
 //!
+//! [`shade`] chains what a displaced triangle needs: [`view`], [`Material::albedo`] and [`golden`].
+//!
 //! Error: at most 1/255 a light and half a unit of rounding.
 //!
 //! Example: one white light along N, albedo 0.5, nothing else: 128 in each channel.
 
+use crate::face_normal::Pixel;
 use crate::{power, rsqrt};
 use serde::{Deserialize, Serialize};
 
@@ -82,6 +85,31 @@ fn cosine(a: [i32; 3], b: [i32; 3]) -> u32 {
     // Three products of SQ1.16: 34 bits and sign.
     let dot: i64 = (0..3).map(|k| i64::from(a[k]) * i64::from(b[k])).sum();
     (dot >> 16).clamp(0, 1 << 16) as u32
+}
+
+/// The direction from X', Y' (SQ13.8 pixels) on the screen to the eye: 3 x SQ1.16.
+pub fn view(pixel: &Pixel, position: [i64; 2]) -> [i32; 3] {
+    // z = 1 in 32 fraction bits: 22 + 24 bits of product, of whose 8 + shift fraction bits at least 24 go.
+    let slope = |x: i64| -((i128::from(x) * i128::from(pixel.scale)) << 32 >> (pixel.shift + 8)) as i64;
+    rsqrt::normalize([slope(position[0]), slope(position[1]), -1 << 32])
+}
+
+/// The exact direction.
+pub fn exact_view(pixel: &Pixel, position: [i64; 2]) -> [f64; 3] {
+    let size = f64::from(pixel.scale) * (-f64::from(pixel.shift)).exp2() / 256.0;
+    (-glam::DVec3::new(position[0] as f64 * size, position[1] as f64 * size, 1.0)).normalize().to_array()
+}
+
+/// The colour of a triangle with normal `n`, seen at `position` (X', Y' of a vertex), with its three heights.
+pub fn shade(
+    material: &Material,
+    lights: &[Light],
+    pixel: &Pixel,
+    position: [i64; 2],
+    heights: [i64; 3],
+    n: [i32; 3],
+) -> [u8; 3] {
+    golden(material, lights, material.albedo(heights), n, view(pixel, position))
 }
 
 /// The colour of a point with normal `n`, seen from direction `v`.

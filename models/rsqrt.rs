@@ -80,13 +80,27 @@ pub fn exact(x: u32) -> f64 {
 /// largest component has 16 significant bits or more.
 pub fn normalize(vector: [i64; 3]) -> [i32; 3] {
     let bits = vector.iter().map(|v| 64 - v.unsigned_abs().leading_zeros()).max().unwrap_or(0);
-    if bits == 0 {
+    unit(vector.map(|v| if bits > 16 { crate::fixed::shift_round_half_up(v, bits - 16) } else { v << (16 - bits) }))
+}
+
+/// [`normalize`] of a vector of up to 126 bits.
+pub fn normalize_wide(vector: [i128; 3]) -> [i32; 3] {
+    let bits = vector.iter().map(|v| 128 - v.unsigned_abs().leading_zeros()).max().unwrap_or(0);
+    // 17 bits and sign are left before the last one is rounded away.
+    if bits > 62 {
+        unit(vector.map(|v| ((v >> (bits - 17)) + 1) as i64 >> 1))
+    } else {
+        normalize(vector.map(|v| v as i64))
+    }
+}
+
+/// The unit vector of one whose longest component has a magnitude of 2^15 to 2^16 (rounding up reaches it), or of zero.
+pub fn unit(leading: [i64; 3]) -> [i32; 3] {
+    // The squares sum to at most 3 2^32, 34 bits.
+    let square: i64 = leading.iter().map(|v| v * v).sum();
+    if square == 0 {
         return [0; 3];
     }
-    // Components of at most 2^16 (rounding up reaches it): their squares sum to at most 3 2^32, 34 bits.
-    let leading =
-        vector.map(|v| if bits > 16 { crate::fixed::shift_round_half_up(v, bits - 16) } else { v << (16 - bits) });
-    let square: i64 = leading.iter().map(|v| v * v).sum();
     // At least (2^15)^2, so an even shift leaves [2^30, 2^32).
     let wide = u32::from(square >> 32 != 0);
     let inverse = i64::from(golden((square >> (2 * wide)) as u32));
