@@ -11,11 +11,13 @@
 
 mod inverse_root;
 mod normalize;
+mod shorten;
 mod table;
 mod unit_vector;
 
 pub use inverse_root::InverseRoot;
 pub use normalize::Normalize;
+pub use shorten::Shorten;
 pub use table::RootTable;
 pub use unit_vector::UnitVector;
 
