@@ -181,7 +181,7 @@ impl Logic for FaceNormal {
         self.s48_short.along_z.next = self.s33_depth.depth.val();
         self.s48_short.flip.next = self.s33_away.delayed.val().any();
         self.s81_unit.go.next = self.go.val();
-        self.s81_unit.short.next = self.s48_short.short.val();
+        self.s81_unit.components.next = self.s48_short.shortened.val();
 
         if self.go.val() {
             self.s1_x.d.next = self.in_x.val();

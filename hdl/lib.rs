@@ -7,6 +7,7 @@ pub mod bisector;
 pub mod displace;
 pub mod face_normal;
 pub mod filter_level;
+pub mod light;
 pub mod mip_build;
 pub mod mip_fetch;
 pub mod perspective_correct;

@@ -12,7 +12,7 @@ mod line_table;
 mod product;
 mod shift_right;
 
-pub use delay::{Delay, LongDelay};
+pub use delay::{Delay, FarDelay, LongDelay, LongVectorDelay, VectorDelay};
 pub use dsp_product::DspProduct;
 pub use flow::Flow;
 pub use leading::Leading;

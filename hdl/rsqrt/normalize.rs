@@ -130,7 +130,7 @@ impl Logic for Normalize {
 
         // s11 to s43
         self.unit_vector.go.next = self.go.val();
-        self.unit_vector.short.next = self.s10_short.q.val();
+        self.unit_vector.components.next = self.s10_short.q.val();
 
         if self.go.val() {
             self.s1_size_x.d.next = bit_cast_to::<U<32>>(self.size_x.val());

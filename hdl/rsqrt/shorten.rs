@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A long vector to one of 16 bits, for [`UnitVector`](super::UnitVector).
 //!
-//! `short = v / 2^(length - 16)` rounded half up; v = +-(2^16 along_x, 2^16 along_y, along_z), and its longest component has
+//! `shortened = v / 2^(length - 16)` rounded half up; v = +-(2^16 along_x, 2^16 along_y, along_z), and its longest component has
 //! `length` bits
 //!
 //! | port  | format        | meaning |   Latency 15, interval 1; holds while `go` is low
 //! | along_x, along_y | signed 54 | not the minimum |
 //! | along_z | signed 92   | not the minimum |
 //! | flip  | Bit           | -v instead of v |
-//! | short | 3 x signed 18 | the zero vector becomes (0, 0, -2^15) |   Golden: models::rsqrt::normalize_wide
+//! | shortened | 3 x signed 18 | the zero vector becomes (0, 0, -2^15) |   Golden: models::rsqrt::normalize_wide
 //!
 //! | stage         | operation                                       | width |
 //! | s1, s2        | -v, of z first the lower half                   | |
@@ -33,7 +33,7 @@ pub struct Shorten {
     pub along_y: Input<S<54>>,
     pub along_z: Input<WideS<92>>,
     pub flip: Input<Bit>,
-    pub short: Output<Lanes<3, 18>>,
+    pub shortened: Output<Lanes<3, 18>>,
     s1_x: DataRegister<S<54>>,
     s1_y: DataRegister<S<54>>,
     s1_z: DataRegister<WideS<92>>,
@@ -109,7 +109,7 @@ impl Default for Shorten {
             along_y: Input::default(),
             along_z: Input::default(),
             flip: Input::default(),
-            short: Output::default(),
+            shortened: Output::default(),
             s1_x: DataRegister::default(),
             s1_y: DataRegister::default(),
             s1_z: DataRegister::default(),
@@ -230,7 +230,7 @@ impl Logic for Shorten {
             s14_zero,
             s15_short
         );
-        self.short.next = self.s15_short.q.val();
+        self.shortened.next = self.s15_short.q.val();
 
         // s2, s3
         self.carried.next = bit_cast_to::<U<46>>(!(self.s1_z.q.val() >> 46))

@@ -3,9 +3,9 @@
 //!
 //! `n = v / |v|`
 //!
-//! | port  | format        | meaning |   Latency 33, interval 1; holds while `go` is low
-//! | short | 3 x signed 18 | magnitudes of at most 2^16, and of 2^15 or more for the longest; or zero |
-//! | unit  | 3 x SQ1.16    | 1.0 is representable; zero stays zero |   Golden: models::rsqrt::unit
+//! | port       | format        | meaning |   Latency 33, interval 1; holds while `go` is low
+//! | components | 3 x signed 18 | magnitudes of at most 2^16, and of 2^15 or more for the longest; or zero |
+//! | unit       | 3 x SQ1.16    | 1.0 is representable; zero stays zero |   Golden: models::rsqrt::unit
 //!
 //! | stage           | operation                                     | width |
 //! | s1 .. s4_square | the sum of the squares                        | at most 3 2^32: 34 bits |
@@ -13,6 +13,8 @@
 //! | s6 .. s28       | its reciprocal root                           | UQ0.32 |
 //! | s29 .. s32_unit | components times root                         | signed 50, of which the upper 33 matter |
 //! | s33_unit        | rounded half up                               | SQ1.16 |
+//!
+//! Its casts are none that the root has, too: Verilator 5.006 would take the one for the other where a block has two of these.
 
 use super::InverseRoot;
 use crate::pipeline::{DspProduct, LongDelay};
@@ -24,12 +26,12 @@ use crate::prelude::*;
 pub struct UnitVector {
     pub clock: Input<ClockReset>,
     pub go: Input<Bit>,
-    pub short: Input<Lanes<3, 18>>,
+    pub components: Input<Lanes<3, 18>>,
     pub unit: Output<Lanes<3, 18>>,
     s3_x: DspProduct<18, 18, 36>,
     s3_y: DspProduct<18, 18, 36>,
     s3_z: DspProduct<18, 18, 36>,
-    s4_square: DataRegister<U<34>>,
+    s4_square: DataRegister<S<36>>,
     s5_square: DataRegister<U<32>>,
     s5_wide: DataRegister<Bit>,
     inverse: InverseRoot,
@@ -67,7 +69,7 @@ impl Default for UnitVector {
         Self {
             clock: Input::default(),
             go: Input::default(),
-            short: Input::default(),
+            components: Input::default(),
             unit: Output::default(),
             s3_x: DspProduct::default(),
             s3_y: DspProduct::default(),
@@ -123,9 +125,9 @@ impl Logic for UnitVector {
         self.unit.next = self.s33_unit.q.val();
 
         // s1 to s5
-        self.short_x.next = self.short.val().get_bit(0);
-        self.short_y.next = self.short.val().get_bit(1);
-        self.short_z.next = self.short.val().get_bit(2);
+        self.short_x.next = self.components.val().get_bit(0);
+        self.short_y.next = self.components.val().get_bit(1);
+        self.short_z.next = self.components.val().get_bit(2);
         self.s3_x.go.next = self.go.val();
         self.s3_x.a.next = self.short_x.val();
         self.s3_x.b.next = self.short_x.val();
@@ -151,8 +153,8 @@ impl Logic for UnitVector {
         self.late_x.next = bit_cast_to::<S<18>>(self.s28_short.delayed.val().get_bits::<18>(0));
         self.late_y.next = bit_cast_to::<S<18>>(self.s28_short.delayed.val().get_bits::<18>(18));
         self.late_z.next = bit_cast_to::<S<18>>(self.s28_short.delayed.val().get_bits::<18>(36));
-        self.root_low.next = bit_cast_to::<S<18>>(self.inverse.root.val().get_bits::<17>(0));
-        self.root_high.next = bit_cast_to::<S<18>>(self.inverse.root.val().get_bits::<15>(17));
+        self.root_low.next = bit_cast_to::<S<18>>(self.inverse.root.val() & 0x1_ffff);
+        self.root_high.next = bit_cast_to::<S<18>>(self.inverse.root.val() >> 17);
         self.s31_x_low.go.next = self.go.val();
         self.s31_x_low.a.next = self.late_x.val();
         self.s31_x_low.b.next = self.root_low.val();
@@ -188,9 +190,9 @@ impl Logic for UnitVector {
         }
 
         if self.go.val() {
-            self.s4_square.d.next = bit_cast_to::<U<34>>(self.s3_x.p.val())
-                + bit_cast_to::<U<34>>(self.s3_y.p.val())
-                + bit_cast_to::<U<34>>(self.s3_z.p.val());
+            self.s4_square.d.next = bit_cast_to::<S<36>>(self.s3_x.p.val())
+                + bit_cast_to::<S<36>>(self.s3_y.p.val())
+                + bit_cast_to::<S<36>>(self.s3_z.p.val());
             self.s5_wide.d.next = self.wide.val();
             self.s5_square.d.next = self.s4_square.q.val().get_bits::<32>(0);
             if self.wide.val() {
