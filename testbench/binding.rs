@@ -75,6 +75,9 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::perspective_correct::PerspectiveCorrectBinding,
     &crate::filter_level::FilterLevelBinding,
     &crate::displace::DisplaceBinding,
+    &crate::power::PowerBinding,
+    &crate::face_normal::FaceNormalBinding,
+    &crate::light::LightBinding,
 ];
 
 /// The block of a name.

@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 15] = [
+const NAMES: [&str; 18] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -29,6 +29,9 @@ const NAMES: [&str; 15] = [
     "perspective_correct",
     "filter_level",
     "displace",
+    "power",
+    "face_normal",
+    "light",
 ];
 
 /// Exit code, stdout and stderr.
@@ -547,6 +550,9 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("perspective_correct", "1000"),
         ("filter_level", "1000"),
         ("displace", "1000"),
+        ("power", "1000"),
+        ("face_normal", "1000"),
+        ("light", "1000"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
@@ -625,6 +631,9 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
             "perspective_correct" => 115,
             "filter_level" => 105,
             "displace" => 350,
+            "power" => 15,
+            "face_normal" => 280,
+            "light" => 1050,
             _ => 0,
         };
         assert!(report.distributed_rams <= distributed, "{name}: its memories belong into block RAM: {report}");

@@ -112,7 +112,10 @@ const FETCH: Contract = Contract {
 
 /// A straight pipeline, all of whose handshake is a `Flow`.
 const PIPELINE: Contract = Contract {
-    text: include_str!("contract/pipeline.sv"),
+    text: concat!(
+        "    wire [$bits(\\block.flow.sending_q )-1:0] sending = \\block.flow.sending_q ;\n",
+        include_str!("contract/pipeline.sv")
+    ),
     claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Room, 3)],
     cut: &[Property::Held, Property::Counted, Property::Answered, Property::Room, Property::Reached],
     ..NONE
@@ -121,7 +124,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 21] = [
+pub const CONTRACTS: [Contract; 24] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -267,6 +270,30 @@ pub const CONTRACTS: [Contract; 21] = [
         name: "displace",
         reach: 96,
         faults: &[fault(Property::Room, "flow_88_of_102", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "power",
+        reach: 36,
+        faults: &[fault(Property::Room, "flow_28_of_17", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "face_normal",
+        reach: 89,
+        faults: &[fault(Property::Room, "flow_81_of_54", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "light",
+        // Its first stages stand before the flow.
+        text: concat!(
+            "    wire [$bits(\\block.flow.sending_q )+$bits(\\block.before_q )-1:0] sending =\n",
+            "        {\\block.flow.sending_q , \\block.before_q };\n",
+            include_str!("contract/pipeline.sv")
+        ),
+        reach: 153,
+        faults: &[fault(Property::Room, "flow_100_of_24", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {

@@ -1,6 +1,7 @@
     // A beat stands in one stage, the youngest in the lowest bit, and moves on unless two results wait at the end.
-    localparam N = $bits(\block.flow.sending_q );
-    wire [N:0] beats = {\block.flow.sent_valid_q , \block.flow.sending_q };
+    // `sending`, declared by the contract, has the stages before the result.
+    localparam N = $bits(sending);
+    wire [N:0] beats = {\block.flow.sent_valid_q , sending};
     wire waits = under_way != 0 && !out_valid;
     // How many beats are further than each stage, carried along with it; below the first one, all are. That the count of one
     // stage and of the next differ by its beat is local, so that an induction closes at any length.
