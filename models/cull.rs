@@ -19,8 +19,11 @@
 //! Conservative: the constants are rounded outwards, so culling never removes anything visible; error on the other side:
 //! a triangle near a corner of the volume may stay although nothing of it is seen.
 //!
+//! [`verdict`] is what the block says of a base triangle: whether it is culled, has to be cut first, or goes on.
+//!
 //! Example: all corners 1 m left of the left side, D = 0.5 m -> culled by `Left`; D = 1.5 m -> kept.
 
+use crate::vertex_transform::{OutOfRange, Transformed};
 use serde::{Deserialize, Serialize};
 
 /// Which side of the extended volume a base triangle is beyond.
@@ -68,4 +71,46 @@ pub fn outcode(constants: &Constants, position: [i64; 3]) -> u8 {
 pub fn golden(outcodes: [u8; 3]) -> Option<Reason> {
     let common = outcodes[0] & outcodes[1] & outcodes[2];
     Reason::ALL.into_iter().find(|&reason| common >> reason as u8 & 1 != 0)
+}
+
+/// What the transform tells of a corner.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Corner {
+    /// Sides of the volume of sight that it is beyond.
+    pub outcode: u8,
+    /// Constant planes that it is behind.
+    pub outside: u8,
+    /// Why it has no projection, if it lies before all of them.
+    pub failure: Option<OutOfRange>,
+}
+
+impl From<&Transformed> for Corner {
+    fn from(vertex: &Transformed) -> Self {
+        let failure = vertex.projected.and_then(Result::err);
+        Self { outcode: vertex.outcode, outside: vertex.outside, failure }
+    }
+}
+
+/// What becomes of a base triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It goes on as it is.
+    Kept,
+    /// It is invisible, with all its displacement.
+    Culled(Reason),
+    /// Constant planes cut it; nothing may be left.
+    Cut,
+    /// A corner has no place in the formats.
+    Dropped(OutOfRange),
+}
+
+/// The verdict on a base triangle. Culling comes first, and what is cut is judged again by its pieces.
+pub fn verdict(corners: [Corner; 3], culls: bool) -> Verdict {
+    if culls && let Some(reason) = golden(corners.map(|corner| corner.outcode)) {
+        return Verdict::Culled(reason);
+    }
+    if corners.iter().any(|corner| corner.outside != 0) {
+        return Verdict::Cut;
+    }
+    corners.iter().find_map(|corner| corner.failure).map_or(Verdict::Kept, Verdict::Dropped)
 }

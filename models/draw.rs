@@ -15,7 +15,7 @@
 //! their *position*: the mean over all base triangles round it, weighted by area, `sqrt(texel area / world area)`. So the
 //! copies that a wrap seam or a pole needs do not part.
 
-use crate::cull::{self, Reason};
+use crate::cull::{self, Corner, Reason, Verdict};
 use crate::digits::{rounded_up, short};
 use crate::displace::{self, displaced};
 use crate::face_normal::{self, Pixel};
@@ -26,7 +26,7 @@ use crate::perspective_correct::{self, Axis};
 use crate::remesher::{BaseTriangle, Format};
 use crate::rsqrt::normalize;
 use crate::step::Vertex;
-use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, ViewVertex, lane};
+use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, Source, ViewVertex, lane};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
@@ -319,9 +319,6 @@ pub struct Draw {
     z0: f64,
 }
 
-/// Corners of a cut base triangle lie within so many pixels of the viewport's centre.
-const GUARD: i64 = 8190;
-
 /// `value / 2^exponent` as integer, round half up.
 fn quantise(value: f64, exponent: i32) -> i64 {
     // Saturates; callers have checked the range.
@@ -531,18 +528,30 @@ impl Draw {
 
     /// Transforms, culls and cuts base triangle `index`.
     pub fn assemble(&self, index: usize) -> Assembled {
-        let corners = self.triangles[index].map(|v| vertex_transform::view(&self.transform, &self.records[v as usize]));
-        if self.cull
-            && let Some(reason) = cull::golden(corners.map(|v| cull::outcode(&self.volume, v.position)))
-        {
-            return Assembled::Culled(reason);
+        let corners = self.triangles[index].map(|v| {
+            let source = Source::Record(self.records[v as usize]);
+            vertex_transform::golden(&self.transform, &self.volume, &source)
+        });
+        match cull::verdict(corners.each_ref().map(Corner::from), self.cull) {
+            Verdict::Culled(reason) => Assembled::Culled(reason),
+            Verdict::Dropped(reason) => dropped(reason),
+            Verdict::Cut => self.assemble_pieces(corners.map(|corner| corner.view)),
+            Verdict::Kept => {
+                let projected = corners.map(|corner| corner.projected);
+                let [Some(Ok(a)), Some(Ok(b)), Some(Ok(c))] = projected else {
+                    unreachable!("a corner of a kept base triangle is projected")
+                };
+                Assembled::Kept(Box::new(self.base_triangle([&a, &b, &c])))
+            }
         }
+    }
+
+    /// What the constant planes leave of a base triangle.
+    fn assemble_pieces(&self, corners: [ViewVertex; 3]) -> Assembled {
         let mut polygon = corners.to_vec();
-        let mut is_cut = false;
         for plane in 0..5 {
-            if polygon.iter().any(|v| self.distance(plane, v.position) < 0) {
+            if polygon.iter().any(|v| vertex_transform::distance(&self.transform, plane, v.position) < 0) {
                 polygon = self.cut(&polygon, plane);
-                is_cut = true;
             }
         }
         if polygon.len() < 3 {
@@ -551,41 +560,21 @@ impl Draw {
         let projected: Result<Vec<Projected>, OutOfRange> =
             polygon.iter().map(|v| vertex_transform::project(&self.transform, v)).collect();
         match projected {
-            Err(OutOfRange::Lane) => Assembled::Dropped(DropReason::Lane),
-            Err(OutOfRange::Grid) => Assembled::Dropped(DropReason::Grid),
-            Ok(p) => {
-                let piece = |k: usize| BaseTriangle {
-                    corners: [p[0], p[k], p[k + 1]].map(|v| v.corner),
-                    data: [p[0], p[k], p[k + 1]].map(|v| self.lanes.narrow(&v.data)),
-                };
-                if is_cut {
-                    Assembled::Cut((1..p.len() - 1).map(piece).collect())
-                } else {
-                    Assembled::Kept(Box::new(piece(1)))
-                }
-            }
+            Err(reason) => dropped(reason),
+            Ok(p) => Assembled::Cut((1..p.len() - 1).map(|k| self.base_triangle([&p[0], &p[k], &p[k + 1]])).collect()),
         }
     }
 
-    /// Signed distance from a constant plane: 0 is z0, 1 to 4 the guard band in X and Y.
-    fn distance(&self, plane: usize, position: [i64; 3]) -> i64 {
-        let [x, y, z] = position;
-        // 46 + 32 bits of product leave 62; 13 + 46 bits are 59.
-        let shifted = |x: i64| ((i128::from(x) * i128::from(self.transform.focal)) >> 16) as i64;
-        match plane {
-            0 => z - self.transform.z0,
-            1 => GUARD * z + shifted(x),
-            2 => GUARD * z - shifted(x),
-            3 => GUARD * z + shifted(y),
-            _ => GUARD * z - shifted(y),
-        }
+    fn base_triangle(&self, corners: [&Projected; 3]) -> BaseTriangle {
+        BaseTriangle { corners: corners.map(|v| v.corner), data: corners.map(|v| self.lanes.narrow(&v.data)) }
     }
 
     /// What a constant plane leaves of a convex polygon (Sutherland & Hodgman 1974).
     ///
     /// The plane is the same for all base triangles and each cut a function of its edge alone, so neighbours stay closed.
     fn cut(&self, polygon: &[ViewVertex], plane: usize) -> Vec<ViewVertex> {
-        let at: Vec<i64> = polygon.iter().map(|v| self.distance(plane, v.position)).collect();
+        let at: Vec<i64> =
+            polygon.iter().map(|v| vertex_transform::distance(&self.transform, plane, v.position)).collect();
         let mut left = Vec::with_capacity(polygon.len() + 1);
         for (k, vertex) in polygon.iter().enumerate() {
             let next = (k + 1) % polygon.len();
@@ -672,6 +661,13 @@ fn lanes(format: &Format, views: &[ViewVertex]) -> Result<Lanes, DrawError> {
             (_, None) => ", and density of texels",
             _ => "",
         },
+    })
+}
+
+fn dropped(reason: OutOfRange) -> Assembled {
+    Assembled::Dropped(match reason {
+        OutOfRange::Lane => DropReason::Lane,
+        OutOfRange::Grid => DropReason::Grid,
     })
 }
 

@@ -28,7 +28,7 @@
 
 use crate::fixed::divide_round_half_up;
 use crate::step::{MAX_COMPONENTS, Vertex};
-use crate::{power, reciprocal};
+use crate::{cull, power, reciprocal};
 use serde::{Deserialize, Serialize};
 
 /// Lanes of the vertex data, in order.
@@ -114,6 +114,61 @@ pub enum OutOfRange {
     Lane,
     /// A grid coordinate beyond the remesher's.
     Grid,
+}
+
+/// A beat of the block: a record of the vertex memory, or a vertex that a cut has made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// To be rotated first.
+    Record(BaseVertex),
+    /// In view space already.
+    View(ViewVertex),
+}
+
+/// All that the block tells of a vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transformed {
+    /// The vertex in view space, for the cutter.
+    pub view: ViewVertex,
+    /// Sides of the volume of sight that it is beyond, see [`cull`].
+    pub outcode: u8,
+    /// Constant planes that it is behind, one bit each, see [`distance`].
+    pub outside: u8,
+    /// The projection; none behind z0.
+    pub projected: Option<Result<Projected, OutOfRange>>,
+}
+
+/// Corners of a cut base triangle lie within so many pixels of the viewport's centre.
+pub const GUARD: i64 = 8190;
+
+/// Transforms a vertex: whatever is a function of it alone.
+pub fn golden(constants: &Constants, volume: &cull::Constants, source: &Source) -> Transformed {
+    let view = match source {
+        Source::Record(vertex) => view(constants, vertex),
+        Source::View(vertex) => *vertex,
+    };
+    let outside = outside(constants, view.position);
+    let projected = (outside & 1 == 0).then(|| project(constants, &view));
+    Transformed { view, outcode: cull::outcode(volume, view.position), outside, projected }
+}
+
+/// Signed distance from a constant plane: 0 is z0, 1 to 4 the guard band left, right, above, below.
+pub fn distance(constants: &Constants, plane: usize, position: [i64; 3]) -> i64 {
+    let [x, y, z] = position;
+    // 46 + 32 bits of product leave 62; 13 + 46 bits are 59.
+    let shifted = |x: i64| ((i128::from(x) * i128::from(constants.focal)) >> 16) as i64;
+    match plane {
+        0 => z - constants.z0,
+        1 => GUARD * z + shifted(x),
+        2 => GUARD * z - shifted(x),
+        3 => GUARD * z + shifted(y),
+        _ => GUARD * z - shifted(y),
+    }
+}
+
+/// The constant planes that `position` is behind, one bit each.
+pub fn outside(constants: &Constants, position: [i64; 3]) -> u8 {
+    (0..5).fold(0, |bits, plane| bits | u8::from(distance(constants, plane, position) < 0) << plane)
 }
 
 /// Rotation and translation.

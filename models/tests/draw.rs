@@ -3,6 +3,7 @@
 
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
+use relief_models::cull::{self, Corner, Reason, Verdict};
 use relief_models::displace::displaced;
 use relief_models::draw::{Assembled, CameraView, Draw, DrawError, DrawVertex, DropReason, MapInfo};
 use relief_models::face_normal::{self, Pixel};
@@ -10,7 +11,7 @@ use relief_models::filter_level;
 use relief_models::light::{self, Light, Material};
 use relief_models::remesher::Format;
 use relief_models::rsqrt::normalize;
-use relief_models::vertex_transform::{self, ViewVertex, lane};
+use relief_models::vertex_transform::{self, OutOfRange, Source, ViewVertex, lane};
 
 const FORMAT: Format =
     Format { components: 9, vertex_bits: 32, guard_bits: 13, coordinate_bits: 14, column_depth: 4096 };
@@ -118,6 +119,47 @@ fn vertex_transform_matches_f64() {
     assert!(checked > 3_000);
     assert!(worst[..2].iter().all(|e| *e <= 1.6) && worst[2] <= 2.2 && worst[3..].iter().all(|e| *e <= 3.0));
     assert!(depth <= 0.5 + 0.04);
+}
+
+/// Flags of the block are signs of distances from planes: to a unit they turn where f64 says.
+#[test]
+fn vertex_transform_flags_turn_at_their_planes() {
+    let draw = triangle(CORNERS).unwrap();
+    let (constants, volume) = (&draw.transform, &draw.volume);
+    let focal = f64::from(constants.focal) / 65536.0;
+    let at = |position: [i64; 3]| {
+        let view = ViewVertex { position, normal: [0; 3], texel: [0; 2], density: 0 };
+        vertex_transform::golden(constants, volume, &Source::View(view))
+    };
+    let mut random = Random(3);
+    for _ in 0..2_000 {
+        let z = constants.z0 + (random.unit() * 2f64.powf(45.0 * random.unit())) as i64;
+        let band = (8190.0 * z as f64 / focal) as i64;
+        for (bits, [x, y]) in [(0b00010, [-1, 0]), (0b00100, [1, 0]), (0b01000, [0, -1]), (0b10000, [0, 1])] {
+            assert_eq!(at([x * (band - 3), y * (band - 3), z]).outside, 0, "{z}");
+            assert_eq!(at([x * (band + 3), y * (band + 3), z]).outside, bits, "{z}");
+        }
+    }
+    let behind = at([0, 0, constants.z0 - 1]);
+    assert_eq!((behind.outside & 1, behind.projected), (1, None));
+    assert_eq!(at([0, 0, constants.z0]).projected.unwrap().unwrap().data[lane::C], i64::from(i32::MAX));
+}
+
+/// Culling comes before cuts, cuts before what does not fit, and the first corner that does not fit says why.
+#[test]
+fn cull_verdicts_come_in_their_order() {
+    use OutOfRange::{Grid, Lane};
+    let fine = Corner { outcode: 0, outside: 0, failure: None };
+    let beyond = |outcode| Corner { outcode, ..fine };
+    let outside = Corner { outside: 4, failure: Some(Lane), ..fine };
+    let fails = |failure| Corner { failure: Some(failure), ..fine };
+    assert_eq!(cull::verdict([fine; 3], true), Verdict::Kept);
+    assert_eq!(cull::verdict([beyond(0b110), beyond(0b011), beyond(0b010)], true), Verdict::Culled(Reason::Right));
+    assert_eq!(cull::verdict([beyond(0b110), beyond(0b011), beyond(0b010)], false), Verdict::Kept);
+    assert_eq!(cull::verdict([beyond(0b110), beyond(0b011), beyond(0b100)], true), Verdict::Kept);
+    assert_eq!(cull::verdict([fails(Grid), outside, fine], true), Verdict::Cut);
+    assert_eq!(cull::verdict([fine, fails(Grid), fails(Lane)], true), Verdict::Dropped(Grid));
+    assert_eq!(cull::verdict([fails(Lane), fails(Grid), fine], false), Verdict::Dropped(Lane));
 }
 
 #[test]
