@@ -4,6 +4,7 @@
 //! This crate never sees the golden models: what it computes is checked against them from outside, in the test bench.
 
 pub mod bisector;
+pub mod cull;
 pub mod displace;
 pub mod face_normal;
 pub mod filter_level;
@@ -26,6 +27,7 @@ pub mod signal;
 pub mod strip_unit;
 pub mod verilog;
 pub mod vertex_adder;
+pub mod vertex_transform;
 pub mod widths;
 
 /// Everything a block's source file needs: the rust-hdl kernel macros and Relief's own signals and primitives.
