@@ -34,7 +34,7 @@ mod sum_of_products;
 
 pub use log_table::LogTable;
 pub use operands::Operands;
-pub use schedule::{ROUND, Schedule};
+pub use schedule::{READ, ROUND, Schedule};
 pub use sum_of_products::SumOfProducts;
 
 use crate::pipeline::Leading;
@@ -148,6 +148,7 @@ pub struct VertexTransform {
     ends: Wire<Bit>,
     clears: Wire<Bit>,
     limit_index: Constant<U<6>>,
+    read: Constant<U<6>>,
     last: Constant<U<6>>,
     minus: Constant<S<63>>,
     below: Constant<S<63>>,
@@ -225,6 +226,7 @@ impl Default for VertexTransform {
             ends: Wire::default(),
             clears: Wire::default(),
             limit_index: Constant::new(U::new(32 + term::LIMIT)),
+            read: Constant::new(U::new(READ as i64)),
             last: Constant::new(U::new(ROUND as i64 - 1)),
             minus: Constant::new(S::new(-(1 << 16))),
             below: Constant::new(S::new((1 << 25) - 1)),
@@ -262,7 +264,7 @@ impl Logic for VertexTransform {
         // A round begins with a vertex at the input, or one that has gone through its first round, once the output is free.
         self.go.next = self.running.q.val();
         self.schedule.step.next = self.step.q.val();
-        self.ends.next = self.go.val() && self.schedule.ends.val();
+        self.ends.next = self.go.val() && self.step.q.val() == self.last.val();
         self.out_free.next = !self.sent.q.val() || self.out_ready.val();
         self.vertex.next = self.in_valid.val() && self.in_kind.val().any();
         self.constant.next = self.in_valid.val() && !self.in_kind.val().any();
@@ -274,7 +276,7 @@ impl Logic for VertexTransform {
         }
         self.taking.d.next = false;
         if self.go.val() {
-            self.taking.d.next = self.schedule.takes.val() && self.newer.q.val();
+            self.taking.d.next = self.step.q.val() == self.read.val() && self.newer.q.val();
             if self.ends.val() {
                 self.running.d.next = false;
                 self.sent.d.next = self.older.q.val();

@@ -78,6 +78,8 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::power::PowerBinding,
     &crate::face_normal::FaceNormalBinding,
     &crate::light::LightBinding,
+    &crate::vertex_transform::VertexTransformBinding,
+    &crate::cull::CullBinding,
 ];
 
 /// The block of a name.

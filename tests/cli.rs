@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 18] = [
+const NAMES: [&str; 20] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -32,6 +32,8 @@ const NAMES: [&str; 18] = [
     "power",
     "face_normal",
     "light",
+    "vertex_transform",
+    "cull",
 ];
 
 /// Exit code, stdout and stderr.
@@ -553,6 +555,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("power", "1000"),
         ("face_normal", "1000"),
         ("light", "1000"),
+        ("cull", "500"),
     ];
     for (block, vectors) in runs {
         assert_eq!(relief(&["emit", block, "--param", "position", "--vectors", vectors, "--out", &out]).0, Some(0));
@@ -634,6 +637,7 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
             "power" => 15,
             "face_normal" => 280,
             "light" => 1050,
+            "vertex_transform" => 70,
             _ => 0,
         };
         assert!(report.distributed_rams <= distributed, "{name}: its memories belong into block RAM: {report}");

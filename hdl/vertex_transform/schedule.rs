@@ -28,6 +28,8 @@ use crate::prelude::*;
 
 /// Steps of a round.
 pub const ROUND: usize = 64;
+/// The step in which the last lane of the beat is read: the beat is taken in the next one.
+pub const READ: usize = 62;
 /// Where the words of the small memory stand: the vertex in view space, then what comes between.
 mod work {
     pub const NORMAL: i64 = 3;
@@ -103,8 +105,6 @@ struct Word {
     keeps_inverse: bool,
     keeps_logarithm: bool,
     copies: bool,
-    takes: bool,
-    ends: bool,
 }
 
 struct Table([Word; ROUND]);
@@ -201,11 +201,10 @@ fn table() -> [Word; ROUND] {
         t.store(last, work::NORMAL + row);
     }
     for k in 0..3 {
-        let last = t.sum(59 + k as usize, From::Zero, &[(A::Input(6 + k), B::Literal(2))]);
+        let last = t.sum(READ - 3 + k as usize, From::Zero, &[(A::Input(6 + k), B::Literal(2))]);
         t.shift(last, 1, false);
         t.store(last, work::TEXEL + k);
     }
-    t.at(61).takes = true;
 
     // Sides: x or y and z, or z alone.
     let side = |k: i64| B::Coefficient(coefficient::SIDES + k);
@@ -279,7 +278,6 @@ fn table() -> [Word; ROUND] {
         t.at(step + 2).view = 1 + lane as i64;
     }
     t.at(95).copies = true;
-    t.at(62).ends = true;
     t.0
 }
 
@@ -296,7 +294,7 @@ fn issue(w: &Word) -> U<23> {
     U::new(pack(&fields) | i64::from(w.rotates) << 18 | w.view << 19)
 }
 
-fn result(w: &Word) -> U<36> {
+fn result(w: &Word) -> U<34> {
     let bit = |flag: bool| (i64::from(flag), 1);
     U::new(pack(&[
         (w.from, 4),
@@ -318,8 +316,6 @@ fn result(w: &Word) -> U<36> {
         bit(w.keeps_inverse),
         bit(w.keeps_logarithm),
         bit(w.copies),
-        bit(w.takes),
-        bit(w.ends),
     ]))
 }
 
@@ -363,11 +359,9 @@ pub struct Schedule {
     pub keeps_inverse: Output<Bit>,
     pub keeps_logarithm: Output<Bit>,
     pub copies: Output<Bit>,
-    pub takes: Output<Bit>,
-    pub ends: Output<Bit>,
     issues: Rom<U<23>, 6>,
     literals: Rom<S<33>, 6>,
-    results: Rom<U<36>, 6>,
+    results: Rom<U<34>, 6>,
 }
 
 impl Schedule {
@@ -408,8 +402,6 @@ impl Default for Schedule {
             keeps_inverse: Output::default(),
             keeps_logarithm: Output::default(),
             copies: Output::default(),
-            takes: Output::default(),
-            ends: Output::default(),
             issues: Rom::new("relief_transform_issues", table.iter().map(issue).collect()),
             literals: Rom::new("relief_transform_literals", table.iter().map(|w| S::new(w.literal)).collect()),
             results: Rom::new("relief_transform_results", table.iter().map(result).collect()),
@@ -451,8 +443,6 @@ impl Logic for Schedule {
         self.keeps_inverse.next = self.results.read_data.val().get_bit(31);
         self.keeps_logarithm.next = self.results.read_data.val().get_bit(32);
         self.copies.next = self.results.read_data.val().get_bit(33);
-        self.takes.next = self.results.read_data.val().get_bit(34);
-        self.ends.next = self.results.read_data.val().get_bit(35);
     }
 
     fn timing(&self) -> Vec<TimingInfo> {

@@ -124,7 +124,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 24] = [
+pub const CONTRACTS: [Contract; 26] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -294,6 +294,28 @@ pub const CONTRACTS: [Contract; 24] = [
         ),
         reach: 153,
         faults: &[fault(Property::Room, "flow_100_of_24", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "vertex_transform",
+        exchange: Some(Exchange {
+            asks: r"asked && in_kind != 0 && \block.running_q && \block.begun_q ",
+            answers: "1'b1",
+        }),
+        text: include_str!("contract/vertex_transform.sv"),
+        claims: &[induction(Property::Counted, 3), induction(Property::Answered, 3), induction(Property::Room, 3)],
+        reach: 0,
+        cut: &[Property::Held, Property::Counted, Property::Answered, Property::Room],
+        faults: &[
+            fault(Property::Answered, "vertex_transform", "sent_d = older_q", "sent_d = 1'b0"),
+            fault(Property::Room, "vertex_transform", "{!sent_q} || out_ready", "1'b1"),
+        ],
+        ..NONE
+    },
+    Contract {
+        name: "cull",
+        reach: 10,
+        faults: &[fault(Property::Room, "flow_2_of_5", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
