@@ -4,6 +4,7 @@
 //! This crate never sees the golden models: what it computes is checked against them from outside, in the test bench.
 
 pub mod bisector;
+pub mod clip;
 pub mod cull;
 pub mod displace;
 pub mod face_normal;

@@ -15,6 +15,7 @@
 //! their *position*: the mean over all base triangles round it, weighted by area, `sqrt(texel area / world area)`. So the
 //! copies that a wrap seam or a pole needs do not part.
 
+use crate::clip;
 use crate::cull::{self, Corner, Reason, Verdict};
 use crate::digits::{rounded_up, short};
 use crate::displace::{self, displaced};
@@ -548,12 +549,7 @@ impl Draw {
 
     /// What the constant planes leave of a base triangle.
     fn assemble_pieces(&self, corners: [ViewVertex; 3]) -> Assembled {
-        let mut polygon = corners.to_vec();
-        for plane in 0..5 {
-            if polygon.iter().any(|v| vertex_transform::distance(&self.transform, plane, v.position) < 0) {
-                polygon = self.cut(&polygon, plane);
-            }
-        }
+        let polygon = clip::golden(&self.transform, corners);
         if polygon.len() < 3 {
             return Assembled::Dropped(DropReason::Near);
         }
@@ -567,25 +563,6 @@ impl Draw {
 
     fn base_triangle(&self, corners: [&Projected; 3]) -> BaseTriangle {
         BaseTriangle { corners: corners.map(|v| v.corner), data: corners.map(|v| self.lanes.narrow(&v.data)) }
-    }
-
-    /// What a constant plane leaves of a convex polygon (Sutherland & Hodgman 1974).
-    ///
-    /// The plane is the same for all base triangles and each cut a function of its edge alone, so neighbours stay closed.
-    fn cut(&self, polygon: &[ViewVertex], plane: usize) -> Vec<ViewVertex> {
-        let at: Vec<i64> =
-            polygon.iter().map(|v| vertex_transform::distance(&self.transform, plane, v.position)).collect();
-        let mut left = Vec::with_capacity(polygon.len() + 1);
-        for (k, vertex) in polygon.iter().enumerate() {
-            let next = (k + 1) % polygon.len();
-            if at[k] >= 0 {
-                left.push(*vertex);
-            }
-            if at[k] < 0 && at[next] > 0 || at[k] > 0 && at[next] < 0 {
-                left.push(vertex_transform::cut(vertex, &polygon[next], at[k], at[next]));
-            }
-        }
-        left
     }
 
     /// Where in the height map a vertex of the remesher looks.

@@ -7,6 +7,7 @@
 pub mod bake;
 pub mod bisector;
 pub mod body;
+pub mod clip;
 pub mod closure;
 pub mod cull;
 pub mod digits;

@@ -26,7 +26,6 @@
 //!
 //! Example: z = 2 z0, x = 0 -> c = 0x3FFF_FFFF to within a unit (0.5), X = 0, corner z = octave.
 
-use crate::fixed::divide_round_half_up;
 use crate::step::{MAX_COMPONENTS, Vertex};
 use crate::{cull, power, reciprocal};
 use serde::{Deserialize, Serialize};
@@ -235,31 +234,6 @@ pub fn depth(constants: &Constants, c: i64) -> i64 {
     let s1_logarithm = (i64::from(32 - bits) << 24) - i64::from(power::log2_mantissa(mantissa));
     // 29 + 32 bits of product; 24 + 16 fraction bits go, round half up.
     ((s1_logarithm * i64::from(constants.octave) + (1 << 39)) >> 40) - i64::from(constants.grid_bias)
-}
-
-/// `floor(a + (b - a) (0 - at_a) / (at_b - at_a) + 1/2)`, in one division.
-fn between(a: i64, b: i64, at_a: i64, at_b: i64) -> i64 {
-    // Values below 2^47 times distances below 2^62, twice: below 2^111. The quotient lies between a and b.
-    let (mut over, mut under) =
-        (i128::from(a) * i128::from(at_b) - i128::from(b) * i128::from(at_a), i128::from(at_b) - i128::from(at_a));
-    if under < 0 {
-        (over, under) = (-over, -under);
-    }
-    divide_round_half_up(over, under) as i64
-}
-
-/// The point of the edge `a b` on a plane from which its ends have the distances `at_a` and `at_b` of opposite signs.
-///
-/// A function of the edge, whichever way round it comes: the ends are put in the order of their positions first.
-pub fn cut(a: &ViewVertex, b: &ViewVertex, at_a: i64, at_b: i64) -> ViewVertex {
-    let ((a, at_a), (b, at_b)) = if a.position <= b.position { ((a, at_a), (b, at_b)) } else { ((b, at_b), (a, at_a)) };
-    let mix = |a: i64, b: i64| between(a, b, at_a, at_b);
-    ViewVertex {
-        position: std::array::from_fn(|k| mix(a.position[k], b.position[k])),
-        normal: std::array::from_fn(|k| mix(a.normal[k], b.normal[k])),
-        texel: std::array::from_fn(|k| mix(a.texel[k], b.texel[k])),
-        density: mix(a.density, b.density),
-    }
 }
 
 /// The exact lanes of a vertex in view space, in units of the last place.
