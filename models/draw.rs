@@ -27,7 +27,7 @@ use crate::perspective_correct::{self, Axis};
 use crate::remesher::{BaseTriangle, Format};
 use crate::rsqrt::normalize;
 use crate::step::Vertex;
-use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, Source, ViewVertex, lane};
+use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, Source, Transformed, ViewVertex, lane};
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
@@ -537,14 +537,16 @@ impl Draw {
             Verdict::Culled(reason) => Assembled::Culled(reason),
             Verdict::Dropped(reason) => dropped(reason),
             Verdict::Cut => self.assemble_pieces(corners.map(|corner| corner.view)),
-            Verdict::Kept => {
-                let projected = corners.map(|corner| corner.projected);
-                let [Some(Ok(a)), Some(Ok(b)), Some(Ok(c))] = projected else {
-                    unreachable!("a corner of a kept base triangle is projected")
-                };
-                Assembled::Kept(Box::new(self.base_triangle([&a, &b, &c])))
-            }
+            Verdict::Kept => self.kept(&corners),
         }
+    }
+
+    /// A base triangle whose corners all have a place.
+    pub fn kept(&self, corners: &[Transformed; 3]) -> Assembled {
+        let [Some(Ok(a)), Some(Ok(b)), Some(Ok(c))] = corners.each_ref().map(|corner| corner.projected) else {
+            unreachable!("a corner of a kept base triangle is projected")
+        };
+        Assembled::Kept(Box::new(self.base_triangle([&a, &b, &c])))
     }
 
     /// What the constant planes leave of a base triangle.
@@ -553,8 +555,14 @@ impl Draw {
         if polygon.len() < 3 {
             return Assembled::Dropped(DropReason::Near);
         }
+        let transformed = |view| vertex_transform::golden(&self.transform, &self.volume, &Source::View(view));
+        self.cut_pieces(&polygon.into_iter().map(transformed).collect::<Vec<_>>())
+    }
+
+    /// The fan of a polygon of at least three vertices, all of them in front of z0.
+    pub fn cut_pieces(&self, polygon: &[Transformed]) -> Assembled {
         let projected: Result<Vec<Projected>, OutOfRange> =
-            polygon.iter().map(|v| vertex_transform::project(&self.transform, v)).collect();
+            polygon.iter().map(|v| v.projected.unwrap_or(Err(OutOfRange::Grid))).collect();
         match projected {
             Err(reason) => dropped(reason),
             Ok(p) => Assembled::Cut((1..p.len() - 1).map(|k| self.base_triangle([&p[0], &p[k], &p[k + 1]])).collect()),

@@ -31,6 +31,19 @@ impl Model for Golden {
     }
 }
 
+/// The beat of a base triangle's corners.
+pub(crate) fn corners_beat(corners: [Corner; 3], culls: bool) -> Beat {
+    let status = |corner: &Corner| match corner.failure {
+        _ if corner.outside & 1 == 1 => 3,
+        None => 0,
+        Some(OutOfRange::Lane) => 1,
+        Some(OutOfRange::Grid) => 2,
+    };
+    let of = |field: fn(&Corner) -> u64| corners.each_ref().map(field);
+    let (outcodes, outside) = (of(|corner| corner.outcode.into()), of(|corner| corner.outside.into()));
+    [&outcodes[..], &outside, &corners.each_ref().map(status), &[culls.into()]].concat()
+}
+
 /// Often one bit in common, few planes and few failures: otherwise everything would be cut.
 fn draw(random: &mut Random) -> Beat {
     let common = if random.chance(40) { 1 << random.below(6) } else { 0 };

@@ -14,7 +14,9 @@
 //! Every beat that leaves a block is compared with the block's golden model as it leaves. The emitted modules can run
 //! behind the blocks, compared cycle for cycle.
 
+mod assembly;
 mod recording;
+mod shading;
 mod unit;
 
 pub use recording::PipelineRecording;
@@ -32,18 +34,31 @@ use crate::scoreboard::{Mismatch, PATIENCE};
 use relief_hdl::widths::WidthSet;
 use relief_models::displace::displaced;
 use relief_models::draw::Draw;
+use relief_models::light::Light;
 use relief_models::mip_build::{BuildSize, Level, Pyramid, side_above};
 use relief_models::mip_fetch::{Command, Filter};
 use relief_models::remesher::BaseTriangle;
 use relief_models::step::{MAX_COMPONENTS, Step, Vertex};
 use relief_models::vertex_transform::lane;
 use serde::Serialize;
+use shading::Shading;
 use std::collections::VecDeque;
 use unit::Unit;
 
 /// The blocks that run as hardware, in the order of the pipeline.
-pub const BLOCKS: [&str; COUNT] =
-    ["mip_build", "remesher", "perspective_correct", "filter_level", "mip_fetch", "displace", "strip_unit"];
+pub const BLOCKS: [&str; COUNT] = [
+    "mip_build",
+    "vertex_transform",
+    "cull",
+    "remesher",
+    "perspective_correct",
+    "filter_level",
+    "mip_fetch",
+    "displace",
+    "strip_unit",
+    "face_normal",
+    "light",
+];
 
 /// Steps that wait for their vertices at most: more than the cycles from the remesher to the strip unit.
 const DEPTH: usize = 256;
@@ -95,8 +110,12 @@ pub struct Counts {
     pub vertices: u64,
     /// Triangles.
     pub triangles: u64,
-    /// Cycles of the draws.
+    /// Cycles of the draws, up to the last strip.
     pub cycles: u64,
+    /// Cycles that assembled base triangles before them. As one design the two overlap.
+    pub assembly_cycles: u64,
+    /// Cycles behind the last strip until all triangles were lit, one a cycle.
+    pub shading_cycles: u64,
     /// Cycles that built the levels of the maps.
     pub build_cycles: u64,
     /// Cycles that filled the map memory.
@@ -174,14 +193,18 @@ pub struct Pipeline {
     counts: Counts,
 }
 
-const COUNT: usize = 7;
+const COUNT: usize = 11;
 const BUILD: usize = 0;
-const REMESHER: usize = 1;
-const PERSPECTIVE: usize = 2;
-const LEVEL: usize = 3;
-const FETCH: usize = 4;
-const DISPLACE: usize = 5;
-const STRIP: usize = 6;
+const TRANSFORM: usize = 1;
+const CULL: usize = 2;
+const REMESHER: usize = 3;
+const PERSPECTIVE: usize = 4;
+const LEVEL: usize = 5;
+const FETCH: usize = 6;
+const DISPLACE: usize = 7;
+const STRIP: usize = 8;
+const FACE: usize = 9;
+const LIGHT: usize = 10;
 /// The blocks of the draw's clock.
 const DRAW: std::ops::RangeFrom<usize> = REMESHER..;
 
@@ -293,16 +316,18 @@ impl Pipeline {
     }
 
     /// Sends base triangles back to back. `sink` gets the number of the base triangle, counted from 0 in this call, and
-    /// its triangles in winding order, each vertex with all its displaced lanes.
+    /// its triangles in winding order, each vertex with all its displaced lanes, and their colours. Triangles without a
+    /// place are black. Light is hardware if there is one; several are golden.
     ///
     /// # Errors
     /// A block is at fault, or the recording fails.
     pub fn draw(
         &mut self,
         draw: &Draw,
+        lights: &[Light],
         bases: &[BaseTriangle],
         recording: &mut Option<PipelineRecording>,
-        sink: &mut dyn FnMut(usize, [Vertex; 3]),
+        sink: &mut dyn FnMut(usize, [Vertex; 3], [u8; 3]),
     ) -> Result<(), PipelineError> {
         let (components, bits) = (self.set.components, self.set.vertex_bits as u32);
         let mut offered = 0;
@@ -311,8 +336,9 @@ impl Pipeline {
         // Steps that have left the queue, and whose vertex comes next: number of step, right.
         let (mut gone, mut owners) = (0, VecDeque::new());
         let mut queues = Queues::default();
+        let mut shading = Shading::new(draw, lights);
         let mut silent = 0;
-        while done < bases.len() {
+        while done < bases.len() || !shading.is_empty() {
             if !self.units[REMESHER].offers()
                 && let Some(base) = bases.get(offered)
             {
@@ -332,17 +358,22 @@ impl Pipeline {
                 self.units[STRIP].offer(&words_of(self.set, &step.step));
                 gone += 1;
             }
+            shading.offer(&mut self.units);
             let room = waiting.len() < DEPTH;
             self.units[REMESHER].take(room);
             self.units[DRAW].iter_mut().for_each(Unit::settle);
             if let Some(recording) = recording {
                 recording.sample(&self.units[DRAW], self.counts.cycles)?;
             }
-            self.counts.cycles += 1;
             let outputs = &self.units[REMESHER].stage;
             let has_step = outputs.outputs[outputs.layout.out_valid] == 1;
-            self.counts.stalled += u64::from(has_step && !room);
-            self.counts.silent += u64::from(!has_step);
+            if done < bases.len() {
+                self.counts.cycles += 1;
+                self.counts.stalled += u64::from(has_step && !room);
+                self.counts.silent += u64::from(!has_step);
+            } else {
+                self.counts.shading_cycles += 1;
+            }
             self.counts.bases += u64::from(self.units[REMESHER].stage.accepts());
 
             let moves = self.units[DRAW].iter().any(|unit| unit.stage.accepts() || unit.stage.sends());
@@ -385,10 +416,11 @@ impl Pipeline {
                 let outputs = &self.units[STRIP].stage.outputs;
                 for triangle in self.ports.vertices(outputs) {
                     self.counts.triangles += 1;
-                    sink(done, triangle.map(|vertex| displaced::unpack(&vertex, components, bits)));
+                    shading.take(done, triangle.map(|vertex| displaced::unpack(&vertex, components, bits)));
                 }
                 done += usize::from(self.ports.last(outputs));
             }
+            shading.answer(sent[FACE].take(), sent[LIGHT].take(), sink);
             for unit in REMESHER..self.units.len() {
                 self.note(unit)?;
                 self.units[unit].edge();

@@ -9,7 +9,10 @@ use crate::vertex_adder::expect_count;
 use relief_hdl::vertex_transform::VertexTransform;
 use relief_hdl::widths::WidthSet;
 use relief_models::cull;
-use relief_models::vertex_transform::{BaseVertex, Constants, OutOfRange, Source, ViewVertex, golden, lane};
+use relief_models::step::MAX_COMPONENTS;
+use relief_models::vertex_transform::{
+    BaseVertex, Constants, OutOfRange, Projected, Source, Transformed, ViewVertex, golden, lane,
+};
 use std::ops::RangeInclusive;
 
 /// The vertex transform, the same at every width set.
@@ -62,6 +65,26 @@ pub fn vertex(source: &Source) -> Beat {
         Source::View(vertex) => (2, lanes(vertex)),
     };
     [vec![kind, 0, 0], pack(&lanes, 48)].concat()
+}
+
+/// What a beat of the block says of a vertex.
+pub(crate) fn transformed(words: &[u64]) -> Transformed {
+    let view = unpack(&words[7..], lane::COUNT, 48);
+    let three = |k: usize| [view[k], view[k + 1], view[k + 2]];
+    let mut data = [0; MAX_COMPONENTS];
+    data[..lane::COUNT].copy_from_slice(&unpack(words, lane::COUNT, 32));
+    let corner = unpack(&words[5..], 3, 24);
+    Transformed {
+        view: ViewVertex { position: three(0), normal: three(3), texel: [view[6], view[7]], density: view[8] },
+        outcode: words[14] as u8,
+        outside: words[15] as u8,
+        projected: match words[16] {
+            0 => Some(Ok(Projected { data, corner: [0, 1, 2].map(|k| corner[k] as i32) })),
+            1 => Some(Err(OutOfRange::Lane)),
+            2 => Some(Err(OutOfRange::Grid)),
+            _ => None,
+        },
+    }
 }
 
 fn lanes(vertex: &ViewVertex) -> Vec<i64> {

@@ -7,6 +7,7 @@ use relief_models::mip_build;
 use relief_models::mip_fetch::{Command, Filter};
 use relief_testbench::cosim::tools;
 use relief_testbench::mip_fetch::MipFetchBinding;
+use relief_testbench::pipeline::BLOCKS;
 use relief_testbench::scoreboard::{Pattern, Scoreboard, Until};
 use std::collections::HashMap;
 use std::fs;
@@ -70,14 +71,18 @@ fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
     assert!((each - number(&counts["vertices"])? / number(&counts["triangles"])?).abs() < 1e-9, "{report}");
     assert!(number(&report["seconds"])? > 0.0);
     let blocks: Vec<_> = report["hardware"].as_array().ok_or("no blocks")?.iter().map(|block| &block["name"]).collect();
-    assert_eq!(blocks, ["mip_build", "remesher", "mip_fetch", "strip_unit"]);
+    assert_eq!(blocks, BLOCKS);
+    assert_eq!(report["golden"], serde_json::json!(["clip", "raster"]));
     assert!(stdout.contains(&format!("cycles                     {} ({two:.3} for two", counts["cycles"])), "{stdout}");
     // Every node of the levels above the map came from hardware: 403 x 344 samples have 46,986.
     assert_eq!(report["hardware"][0]["beats"], 46_986);
     assert!(report["pipeline"]["triangles"].as_u64().is_some_and(|triangles| triangles > 300), "{report}");
     assert!(report["pixels"].as_u64().is_some_and(|pixels| pixels > 3_000), "{report}");
     for block in report["hardware"].as_array().ok_or("no blocks")? {
-        assert!(block["beats"].as_u64().is_some_and(|beats| beats > 300), "{block}");
+        // 81 base vertices, 128 base triangles, and more of everything else.
+        let least = [(0, 80), (1, 127)].map(|(k, least)| if block["name"] == BLOCKS[1 + k] { least } else { 0 });
+        let least = least.into_iter().find(|least| *least > 0).unwrap_or(300);
+        assert!(block["beats"].as_u64().is_some_and(|beats| beats > least), "{block}");
     }
     // A group for each base triangle, and one rim.
     let obj = fs::read_to_string(out.join("mesh.obj"))?;
@@ -90,7 +95,7 @@ fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
     for signal in ["relief.remesher.out_valid", "relief.mip_fetch.in_valid", "relief.strip_unit.out_valid"] {
         assert!(waves.trace(signal).is_some_and(|trace| trace.changes() > 1), "{signal}");
     }
-    for block in ["mip_build", "remesher", "mip_fetch", "strip_unit"] {
+    for block in BLOCKS {
         assert!(out.join("rtl").join(block).join(format!("relief_{block}.sv")).is_file());
     }
     Ok(())

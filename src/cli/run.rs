@@ -19,8 +19,8 @@ use super::{Meter, Outcome, Result, select, write_all};
 /// Take a scene with a height map through the displacement pipeline
 ///
 /// Base triangles go through transform, culling, remesher, level choice, height fetch, displacement, strip unit, light and
-/// rasteriser. The builder of filter levels, remesher, height fetch and strip unit run as hardware, and every beat of them is compared with its golden
-/// model; the report says which stages are golden. docs/scene.md tells what a scene file holds.
+/// rasteriser. All but the cutter at constant planes and the rasteriser run as hardware, and every beat of it is compared
+/// with its golden model; the report says which stages are golden. docs/scene.md tells what a scene file holds.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The scene (TOML)
@@ -168,6 +168,8 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
     let two = report.cycles_per_two_triangles;
     row("cycles", format!("{} ({two:.3} for two triangles)", counts.cycles));
     row("  of them waiting", format!("{} for vertices, {} for set-up", counts.stalled, counts.silent));
+    row("cycles to assemble", format!("{} before them", counts.assembly_cycles));
+    row("cycles to light", format!("{} behind them, one triangle a cycle", counts.shading_cycles));
     row("cycles to build levels", counts.build_cycles.to_string());
     row("cycles to load them", counts.load_cycles.to_string());
     row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
