@@ -80,6 +80,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::light::LightBinding,
     &crate::vertex_transform::VertexTransformBinding,
     &crate::cull::CullBinding,
+    &crate::clip::ClipBinding,
 ];
 
 /// The block of a name.

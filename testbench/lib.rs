@@ -22,6 +22,7 @@
 pub mod binding;
 pub mod bisector;
 pub mod check;
+pub mod clip;
 pub mod cosim;
 pub mod cull;
 pub mod device;

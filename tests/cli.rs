@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 20] = [
+const NAMES: [&str; 21] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -34,6 +34,7 @@ const NAMES: [&str; 20] = [
     "light",
     "vertex_transform",
     "cull",
+    "clip",
 ];
 
 /// Exit code, stdout and stderr.
@@ -638,6 +639,7 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
             "face_normal" => 280,
             "light" => 1050,
             "vertex_transform" => 70,
+            "clip" => 16,
             _ => 0,
         };
         assert!(report.distributed_rams <= distributed, "{name}: its memories belong into block RAM: {report}");

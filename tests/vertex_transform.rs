@@ -20,7 +20,7 @@ mod common;
 #[test]
 fn vertex_transform_matches_golden_under_idle_and_stall() {
     for counts in common::matches_golden_everywhere(&VertexTransformBinding, 1_500) {
-        assert!(counts.checked > 400, "{counts:?}");
+        assert!(counts.checked > 300, "{counts:?}");
     }
 }
 
@@ -165,14 +165,14 @@ fn draw(eye: DVec3) -> Draw {
     let format = Format { components: 9, vertex_bits: 32, guard_bits: 13, coordinate_bits: 12, column_depth: 4096 };
     let vertices: Vec<_> = (0..side * side).map(vertex).collect();
     let triangles: Vec<_> = (0..(side - 1) * (side - 1)).flat_map(corners).collect();
-    Draw::new(&camera, &vertices, &triangles, &map, [0.0, 0.1], &format).unwrap()
+    Draw::new(&camera, &vertices, &triangles, &map, [0.0, 2.0], &format).unwrap()
 }
 
 /// Records through the transform and triangles through culling: what the host assembles.
 #[test]
 fn vertex_transform_and_cull_assemble_a_draw() {
     let mut counts = [0; 4];
-    for eye in [DVec3::new(0.0, 0.0, 0.4), DVec3::new(2.0, -3.0, 1.0)] {
+    for eye in [DVec3::new(0.2, -1.0, -0.8), DVec3::new(0.2, 0.3, -0.6)] {
         let draw = draw(eye);
         let mut beats = constants(&draw.transform, &draw.volume);
         beats.extend(draw.records.iter().map(|record| vertex(&Source::Record(*record))));
@@ -219,7 +219,7 @@ fn vertex_transform_and_cull_assemble_a_draw() {
             }
         }
     }
-    assert!(counts[..3].iter().all(|count| *count > 20), "{counts:?}");
+    assert!(counts[0] > 100 && counts[1] > 100 && counts[2] + counts[3] > 40, "{counts:?}");
 }
 
 #[test]

@@ -124,7 +124,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 26] = [
+pub const CONTRACTS: [Contract; 27] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -317,6 +317,15 @@ pub const CONTRACTS: [Contract; 26] = [
         reach: 10,
         faults: &[fault(Property::Room, "flow_2_of_5", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
+    },
+    Contract {
+        name: "clip",
+        exchange: Some(Exchange { asks: r"asked && \block.next_vertices_q == 2", answers: "out_last" }),
+        text: include_str!("contract/clip.sv"),
+        claims: &[induction(Property::Counted, 3)],
+        reach: 0,
+        cut: &[Property::Held, Property::Counted],
+        ..NONE
     },
     Contract {
         name: "divider",
