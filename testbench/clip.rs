@@ -24,6 +24,19 @@ fn lanes(vertex: &ViewVertex) -> Vec<i64> {
     [&vertex.position[..], &vertex.normal, &vertex.texel, &[vertex.density]].concat()
 }
 
+/// The beat of a corner.
+pub(crate) fn corner(constants: &Constants, vertex: &ViewVertex) -> Beat {
+    [pack(&lanes(vertex), 48), vec![constants.z0 as u64, constants.focal.into()]].concat()
+}
+
+/// What a beat of the block says: a vertex, if anything is left, and whether it is the last one.
+pub(crate) fn vertex(words: &[u64]) -> (Option<ViewVertex>, bool) {
+    let view = unpack(words, 9, 48);
+    let three = |k: usize| [view[k], view[k + 1], view[k + 2]];
+    let vertex = ViewVertex { position: three(0), normal: three(3), texel: [view[6], view[7]], density: view[8] };
+    ((words[7] == 1).then_some(vertex), words[8] == 1)
+}
+
 impl Model for Golden {
     fn accept(&mut self, beat: &Beat, expected: &mut Vec<Expected>) {
         let lanes_in = unpack(beat, 9, 48);

@@ -4,7 +4,7 @@
 //! ```text
 //! host          scene -> constants, vertex memory
 //! hardware      mip_build -> levels of the map
-//! hardware      vertex_transform -> cull -> (golden: clip) -> base triangles
+//! hardware      vertex_transform -> cull, clip -> base triangles
 //! hardware      remesher -> perspective_correct, filter_level -> mip_fetch -> displace -> strip_unit
 //! hardware      face_normal -> light -> (golden: rasteriser)
 //! ```
@@ -112,8 +112,8 @@ pub struct Block {
     pub followed_cycles: u64,
 }
 
-/// Stages of the pipeline that are golden models so far, in order.
-const GOLDEN: &[&str] = &["clip", "raster"];
+/// Stages of the pipeline that are golden models, in order.
+const GOLDEN: &[&str] = &["raster"];
 
 /// The cycles in which a scene goes through the pipeline, without light or picture.
 ///

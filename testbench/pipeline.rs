@@ -50,6 +50,7 @@ pub const BLOCKS: [&str; COUNT] = [
     "mip_build",
     "vertex_transform",
     "cull",
+    "clip",
     "remesher",
     "perspective_correct",
     "filter_level",
@@ -193,18 +194,19 @@ pub struct Pipeline {
     counts: Counts,
 }
 
-const COUNT: usize = 11;
+const COUNT: usize = 12;
 const BUILD: usize = 0;
 const TRANSFORM: usize = 1;
 const CULL: usize = 2;
-const REMESHER: usize = 3;
-const PERSPECTIVE: usize = 4;
-const LEVEL: usize = 5;
-const FETCH: usize = 6;
-const DISPLACE: usize = 7;
-const STRIP: usize = 8;
-const FACE: usize = 9;
-const LIGHT: usize = 10;
+const CLIP: usize = 3;
+const REMESHER: usize = 4;
+const PERSPECTIVE: usize = 5;
+const LEVEL: usize = 6;
+const FETCH: usize = 7;
+const DISPLACE: usize = 8;
+const STRIP: usize = 9;
+const FACE: usize = 10;
+const LIGHT: usize = 11;
 /// The blocks of the draw's clock.
 const DRAW: std::ops::RangeFrom<usize> = REMESHER..;
 
