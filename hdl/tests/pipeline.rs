@@ -2,7 +2,9 @@
 //! The parts of straight pipelines against integers of the machine: products, shift, leading zeros and delay, under a `go`
 //! that falls now and then.
 
-use relief_hdl::pipeline::{Delay, Leading, LongDelay, Product2x1, Product2x2, Product3x1, Product3x2, ShiftRight};
+use relief_hdl::pipeline::{
+    Delay, FarDelay, Leading, LongDelay, LongVectorDelay, Product2x1, Product2x2, Product3x1, Product3x2, ShiftRight,
+};
 use relief_hdl::prelude::*;
 use std::collections::VecDeque;
 
@@ -130,4 +132,13 @@ fn delay_is_as_long_as_it_says() {
     delay!(Delay<40, 4>, 4);
     delay!(Delay<40, 17>, 17);
     delay!(LongDelay<40, 4, 5, 17>, 26);
+    delay!(FarDelay<40, 4, 17>, 49);
+    compare!(
+        LongVectorDelay::<18, 4, 5, 17>::default(),
+        26,
+        |random: &mut Random| [0; 3].map(|_| random.signed(18)),
+        |block: &mut LongVectorDelay<18, 4, 5, 17>, value| block.value.next = Lanes::new(value),
+        |value: [i64; 3]| value,
+        |block: &LongVectorDelay<18, 4, 5, 17>| *block.delayed.val().get()
+    );
 }
