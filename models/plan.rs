@@ -122,6 +122,8 @@ pub struct Plan {
     pub all_levels: usize,
     /// Words in each bank of the map memory, for the levels that are read.
     pub bank_words: usize,
+    /// The same for all levels.
+    pub all_bank_words: usize,
     /// The longest side of a map.
     pub side: usize,
 }
@@ -247,6 +249,7 @@ impl<'a> Planner<'a> {
             choices: self.one_less(&at_widest, &widths, &planned, bound),
             all_levels: levels,
             bank_words: self.bank_words(widths.levels),
+            all_bank_words: self.bank_words(levels),
             side: self
                 .objects
                 .iter()

@@ -11,7 +11,7 @@ use relief_hdl::widths::{WIDTH_SETS, WidthSet};
 use relief_models::mesh::Progress;
 use relief_models::plan::{Breaks, Plan, PlanError, Planner, Trial, Widths};
 use relief_models::scene::{self, Entry, Scene};
-use relief_testbench::frame::{cycles, prepare};
+use relief_testbench::frame::{cycles, prepare, width_set};
 use relief_testbench::pipeline::Pipeline;
 use relief_testbench::remesher::format;
 use serde::Serialize;
@@ -61,8 +61,9 @@ struct SetReport {
     trial: Trial,
     /// What its blocks take, measured; none where a row is missing.
     cost: Option<Cost>,
-    /// What those of `default` take.
-    default: Option<Cost>,
+    /// The set that `run` takes by itself, and what its blocks take.
+    otherwise: &'static str,
+    otherwise_cost: Option<Cost>,
     /// Beats that the hardware sent, all equal to golden.
     beats: Option<u64>,
 }
@@ -87,8 +88,9 @@ pub fn run(arguments: &Arguments) -> Result {
             let widths = Widths { format: format(set), levels: plan.widths.levels };
             let trial = planner.try_widths(&widths).map_err(explain)?;
             let beats = if arguments.hardware { Some(hardware(&scene, set, &plan, &meter)?) } else { None };
-            let [cost, default] = [set, &WIDTH_SETS[0]].map(|set| measured(&figures, set));
-            Some(SetReport { name: set.name, trial, cost, default, beats })
+            let otherwise = width_set(&scene);
+            let [cost, otherwise_cost] = [set, otherwise].map(|set| measured(&figures, set));
+            Some(SetReport { name: set.name, trial, cost, otherwise: otherwise.name, otherwise_cost, beats })
         }
     };
     meter.finish();
@@ -144,7 +146,8 @@ fn hardware(
 /// What each choice alone saves against the default set.
 fn savings(planes: &Planes, plan: &Plan) -> Vec<Cost> {
     let default = &WIDTH_SETS[0];
-    let (whole, words) = (format(default), default.bank_words());
+    // A memory for all levels of the scene's maps: the default one may hold less, or far more.
+    let (whole, words) = (format(default), plan.all_bank_words);
     let all = planes.cost(&whole, words);
     let planned = &plan.widths.format;
     let mut changed = [whole; 6];
@@ -162,7 +165,11 @@ fn savings(planes: &Planes, plan: &Plan) -> Vec<Cost> {
 fn measured(figures: &Figures, set: &WidthSet) -> Option<Cost> {
     let mut sum = Cost { lut: 0.0, ff: 0.0, bram: 0.0 };
     for block in BLOCKS {
-        let row = figures.rows.iter().find(|row| row.block == block && row.set == set.name && row.target == PART)?;
+        // Sets of the same vertices have the same remesher and strip unit.
+        let vertices = ["remesher", "strip_unit"].contains(&block);
+        let same = |name: &str| WIDTH_SETS.iter().any(|other| other.name == name && other.has_vertices_of(set));
+        let rows = || figures.rows.iter().filter(|row| row.block == block && row.target == PART);
+        let row = rows().find(|row| row.set == set.name).or_else(|| rows().find(|row| vertices && same(&row.set)))?;
         sum = Cost { lut: sum.lut + row.lut as f64, ff: sum.ff + row.ff as f64, bram: sum.bram + row.bram as f64 };
     }
     Some(sum)
@@ -206,19 +213,17 @@ fn text(arguments: &Arguments, plan: &Plan, saves: &[Cost], set: Option<&SetRepo
         let saved = if parts.is_empty() { "-".to_owned() } else { parts.join(", ") };
         let _ = writeln!(text, "{:26} {was:>8} {:>8}  {breaks:38} {saved}", choice.name, choice.value);
     }
-    let _ = writeln!(text, "{:26} {:>8} {:>8}", "map words in each bank", default.bank_words(), plan.bank_words);
+    let (all, left) = (plan.all_bank_words, plan.bank_words);
+    let _ = writeln!(text, "{:26} {all:>8} {left:>8}", "map words in each bank");
     match set {
         None => text += "\nwidth set                  none of the list has these widths; add one to hdl/widths.rs\n",
         Some(set) => {
             let _ = writeln!(text, "\nwidth set                  {}: {}", set.name, error(&set.trial));
-            if let (Some(cost), Some(all)) = (set.cost, set.default) {
+            if let (Some(cost), Some(all)) = (set.cost, set.otherwise_cost) {
                 let share = |part: f64, whole: f64| format!("{part:.0} of {whole:.0}");
                 let [lut, ff, bram] = [share(cost.lut, all.lut), share(cost.ff, all.ff), share(cost.bram, all.bram)];
-                let _ = writeln!(
-                    text,
-                    "its cells, of `default`'s  {lut} LUT, {ff} FF, {bram} DP16KD ({})",
-                    BLOCKS.join(", ")
-                );
+                let heading = format!("its cells, of {}'s", set.otherwise);
+                let _ = writeln!(text, "{heading:26} {lut} LUT, {ff} FF, {bram} DP16KD");
             }
             if let Some(beats) = set.beats {
                 let _ = writeln!(text, "on its hardware            {beats} beats equal golden");
