@@ -8,7 +8,7 @@
 //!
 //! The planes are the same for all base triangles, and a cut is a function of its edge alone, so neighbours stay closed (Sutherland &
 //! Hodgman 1974; amendment of Gumhold & Huettner 1999, section 2.3). Lanes are those of
-//! [`ViewVertex`](crate::vertex_transform::ViewVertex), distances those of [`distance`](crate::vertex_transform::distance).
+//! [`ViewVertex`], distances those of [`distance`].
 //!
 //! Error: half a unit of each lane for each plane, and for the vertices that it is cut from.
 //!

@@ -11,7 +11,7 @@
 //! twice), and a map that repeats has to keep its seam closed ([`Draw::seams_are_exact`]); the rest is up to the bound.
 //!
 //! Vertex and guard bits share the bound: of the pairs with the fewest bits in an accumulator, the one with the fewest
-//! vertex bits is taken. Each width is then tried with one less, all else as planned: what breaks is [`Trial::breaks`].
+//! vertex bits is taken. Each width is then tried with one less, all else as planned: what breaks is [`Choice::breaks`].
 
 use crate::displacement_pipeline::{Deviation, Measure};
 use crate::draw::{Assembled, Draw, DrawError};
