@@ -8,7 +8,7 @@
 //!
 //! | port      | format        | meaning |   Golden: models::clip::golden   Error 0
 //! | in_view   | 9 x signed 48 | vertex in view space, of the vertex transform; three beats make a triangle
-//! | in_z0, in_focal | signed 47, unsigned 32 | constants of the draw, z0 in view units, focal length UQ16.16; those of the third
+//! | in_z0, in_focal | signed 47, unsigned 32 | constants of the draw, z0 in view units, focal length UQ16.16; those of the third beat count
 //! | out_view  | 9 x signed 48 | vertex of the polygon that is left, for a fan; 0 if nothing is
 //! | out_kept  | Bit           | three vertices or more are left
 //! | out_last  | Bit           | the last vertex of its polygon; a polygon of nothing is one beat
@@ -19,7 +19,7 @@
 //! Which end of an edge comes first makes no difference: the point is an exact quotient that is rounded once.
 //!
 //! An exact polygon has eight vertices at most. Rounding can make more where a plane passes within a unit of several vertices;
-//! there are sixteen places.
+//! there are sixteen places, and what would be a seventeenth is left out.
 //!
 //! Example: ends at z = z0 - 1 and z0 + 3, x = 0 and 100 -> z = z0, x = 25.
 
@@ -124,6 +124,8 @@ pub struct Clip {
     last: DataRegister<Bit>,
     is_last: Wire<Bit>,
     following: Wire<U<5>>,
+    /// A seventeenth vertex is left out.
+    room: Wire<Bit>,
     here: Wire<U<4>>,
     there: Wire<U<4>>,
     at: Wire<U<4>>,
@@ -190,6 +192,7 @@ impl Default for Clip {
             last: DataRegister::default(),
             is_last: Wire::default(),
             following: Wire::default(),
+            room: Wire::default(),
             here: Wire::default(),
             there: Wire::default(),
             at: Wire::default(),
@@ -238,6 +241,7 @@ impl Logic for Clip {
         self.out_last.next = self.last.q.val();
 
         self.following.next = self.vertex.q.val() + 1;
+        self.room.next = !self.next_vertices.q.val().get_bit(4);
         self.is_last.next = self.following.val() == self.vertices.q.val();
         self.here.next = bit_cast_to::<U<4>>(self.vertex.q.val());
         self.there.next = bit_cast_to::<U<4>>(self.following.val());
@@ -417,11 +421,13 @@ impl Logic for Clip {
                 self.state.d.next = ClipState::CopyWrite;
             }
             ClipState::CopyWrite => {
-                self.memory.write_enable.next = true;
+                self.memory.write_enable.next = self.room.val();
                 self.lane.d.next = self.lane.q.val() + 1;
                 self.state.d.next = ClipState::CopyRead;
                 if self.last_lane.val() {
-                    self.next_vertices.d.next = self.next_vertices.q.val() + 1;
+                    if self.room.val() {
+                        self.next_vertices.d.next = self.next_vertices.q.val() + 1;
+                    }
                     self.state.d.next = ClipState::Cross;
                 }
             }
@@ -457,11 +463,13 @@ impl Logic for Clip {
             }
             ClipState::Mix => {
                 if self.between.done.val() {
-                    self.memory.write_enable.next = true;
+                    self.memory.write_enable.next = self.room.val();
                     self.lane.d.next = self.lane.q.val() + 1;
                     self.state.d.next = ClipState::ReadA;
                     if self.last_lane.val() {
-                        self.next_vertices.d.next = self.next_vertices.q.val() + 1;
+                        if self.room.val() {
+                            self.next_vertices.d.next = self.next_vertices.q.val() + 1;
+                        }
                         self.state.d.next = ClipState::Advance;
                     }
                 }

@@ -22,7 +22,7 @@
 //! Exact like its golden model for positions in view space within 48 bits, z0 from 2^16 on, focal lengths above 2^12, and
 //! vertices in view space whose normal fits 33 bits and whose texel and density fit 32.
 //!
-//! Base vertices are rare, so one multiplier of six DSP blocks does all 60 products of a vertex, one a cycle and in the
+//! Base vertices are rare, so one multiplier of six DSP blocks does all 57 products of a vertex, one a cycle and in the
 //! order of [`Schedule`]; a reciprocal, a normaliser and a table of the logarithm stand beside it, each used once or twice.
 //!
 //! Example: z = 2 z0, x = 0 -> c = 0x3FFF_FFFF to within a unit (0.5), X = 0, corner z = octave.

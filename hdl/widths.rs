@@ -147,7 +147,9 @@ width_sets! { $;
     position "position" "Three components: the remesher alone, on geometry":
         L 3, V 32, g 13, N 14, depth 4096, K 13, sides 9, texels 17, table 14, B 32, lattice 8, E 1;
     terrain "terrain" "Five components of 28 bits: base meshes with one normal and one density of texels, 640 x 480":
-        L 5, V 28, g 6, N 12, depth 512, K 10, sides 9, texels 18, table 14, B 32, lattice 8, E 16;
+        L 5, V 28, g 6, N 12, depth 512, K 10, sides 9, texels 17, table 14, B 32, lattice 8, E 16;
+    terrain_large "terrain_large" "The same with the maps of `large`":
+        L 5, V 28, g 6, N 12, depth 512, K 10, sides 10, texels 19, table 19, B 40, lattice 9, E 16;
     small "small" "Nine components of 24 bits for 640 x 480":
         L 9, V 24, g 10, N 11, depth 512, K 10, sides 8, texels 16, table 13, B 32, lattice 8, E 8;
     deep "deep" "Thirteen components, depth ranges to 2^15 voxels":

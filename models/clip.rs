@@ -20,6 +20,10 @@ use crate::vertex_transform::{Constants, ViewVertex, distance};
 /// Constant planes.
 pub const PLANES: usize = 5;
 
+/// Vertices of a polygon, at most. An exact one has eight; rounding makes more only where a plane passes within a unit of
+/// several vertices, and a seventeenth is left out.
+pub const PLACES: usize = 16;
+
 /// What the constant planes leave of a triangle: a convex polygon, or fewer than three vertices.
 pub fn golden(constants: &Constants, corners: [ViewVertex; 3]) -> Vec<ViewVertex> {
     (0..PLANES).fold(corners.to_vec(), |polygon, plane| {
@@ -30,13 +34,13 @@ pub fn golden(constants: &Constants, corners: [ViewVertex; 3]) -> Vec<ViewVertex
 
 /// What a plane leaves of a polygon whose vertices have the distances `at` from it.
 fn behind(polygon: &[ViewVertex], at: &[i64]) -> Vec<ViewVertex> {
-    let mut left = Vec::with_capacity(polygon.len() + 1);
+    let mut left = Vec::with_capacity(PLACES);
     for (k, vertex) in polygon.iter().enumerate() {
         let next = (k + 1) % polygon.len();
-        if at[k] >= 0 {
+        if at[k] >= 0 && left.len() < PLACES {
             left.push(*vertex);
         }
-        if at[k] < 0 && at[next] > 0 || at[k] > 0 && at[next] < 0 {
+        if (at[k] < 0 && at[next] > 0 || at[k] > 0 && at[next] < 0) && left.len() < PLACES {
             left.push(cut(vertex, &polygon[next], at[k], at[next]));
         }
     }

@@ -6,15 +6,18 @@
 //! (a base triangle, the far side of a cutting plane, a triangle with a vertex that has no place), or neither, and then it is a
 //! *crack*. A datapath without fault has no crack, whatever the camera.
 //!
-//! Edges are compared by displaced integers (X', Y', c'), so a crack of 1/256 pixel counts. Base edges are the same if
+//! What a cutting plane has left is a polygon: its edges on a plane are a rim of what was cut, the others are pieces of base
+//! edges, and the diagonals of its fan lie inside. Edges are compared by displaced integers (X', Y', c'), so a crack of 1/256 pixel counts. Base edges are the same if
 //! position and normal of their ends are: where normals differ at one place, the base mesh itself is torn there.
 
+use crate::clip;
 use crate::displace::displaced;
 use crate::draw::{Assembled, Counts, Draw};
 use crate::mip_build::Pyramid;
 use crate::mip_fetch::{Filter, fetch};
 use crate::remesher::{Format, Place, observe};
 use crate::step::Vertex;
+use crate::vertex_transform::{ViewVertex, distance, view};
 use rustc_hash::FxHashMap;
 use serde::Serialize;
 
@@ -62,7 +65,7 @@ enum Owner {
     Interior,
     /// The base edge with these ends, the lower one first.
     Base(End, End),
-    /// Of the rim that a plane has cut.
+    /// Of a plane that has cut.
     Cut,
 }
 
@@ -79,6 +82,7 @@ struct Edge {
 pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
     let mut out = Closure::default();
     let mut edges: FxHashMap<[Point; 2], Edge> = FxHashMap::default();
+    // How often a base edge is run one way more than the other, and whether all its base triangles are there.
     let mut base_edges: FxHashMap<(End, End), (i32, bool)> = FxHashMap::default();
     for (index, corners) in draw.triangles.iter().enumerate() {
         let assembled = draw.assemble(index);
@@ -88,16 +92,17 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
             let (a, b) = (ends[k], ends[(k + 1) % 3]);
             ((a.min(b), a.max(b)), if a < b { 1 } else { -1 })
         };
-        let is_whole = matches!(assembled, Assembled::Kept(_));
+        let is_there = !assembled.pieces().is_empty();
+        let sides = sides(draw, index, &assembled);
         for k in 0..3 {
             let ((a, b), way) = base_edge(k);
             // Both ways along one edge, a triangle without area neither opens nor closes it.
             if a != b {
                 let entry = base_edges.entry((a, b)).or_insert((0, true));
-                *entry = (entry.0 + way, entry.1 && is_whole);
+                *entry = (entry.0 + way, entry.1 && is_there);
             }
         }
-        for piece in assembled.pieces() {
+        for (piece, sides) in assembled.pieces().iter().zip(&sides) {
             let mut known: FxHashMap<Place, Vertex> = FxHashMap::default();
             observe(format, piece, &mut |step, rung| {
                 let mut send = |place, vertex: &Vertex| {
@@ -129,10 +134,10 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
                         let edge = edges.entry([a.min(b), a.max(b)]).or_default();
                         edge.net += if a < b { 1 } else { -1 };
                         edge.borders_invalid |= !is_drawable;
-                        let owner = match common_edge(places[k], places[next]) {
-                            None => Owner::Interior,
-                            Some(_) if !is_whole => Owner::Cut,
-                            Some(k) => {
+                        let owner = match common_edge(places[k], places[next]).map(|side| sides[side]) {
+                            None | Some(Side::Inside) => Owner::Interior,
+                            Some(Side::Plane) => Owner::Cut,
+                            Some(Side::Base(k)) => {
                                 let ((a, b), _) = base_edge(k);
                                 Owner::Base(a, b)
                             }
@@ -145,7 +150,7 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
     }
     for edge in edges.values() {
         if edge.net == 0 {
-            // Its triangle is not drawn, its neighbour is.
+            // One of its triangles is not drawn, or both.
             out.dropped += u64::from(edge.borders_invalid);
             continue;
         }
@@ -160,6 +165,44 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
         }
     }
     out
+}
+
+/// What a side of a piece is of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    /// A diagonal of the fan.
+    Inside,
+    /// On a plane that cuts.
+    Plane,
+    /// Of the base edge of that number.
+    Base(usize),
+}
+
+/// What the sides of each piece of a base triangle are of.
+fn sides(draw: &Draw, index: usize, assembled: &Assembled) -> Vec<[Side; 3]> {
+    let Assembled::Cut(pieces) = assembled else { return vec![[Side::Base(0), Side::Base(1), Side::Base(2)]] };
+    let corners = draw.triangles[index].map(|v| view(&draw.transform, &draw.records[v as usize]));
+    // The polygon with what the edge behind each vertex is of, plane by plane as `clip` makes it.
+    let mut polygon: Vec<(ViewVertex, Side)> = (0..3).map(|k| (corners[k], Side::Base(k))).collect();
+    for plane in 0..clip::PLANES {
+        let at: Vec<i64> = polygon.iter().map(|(v, _)| distance(&draw.transform, plane, v.position)).collect();
+        let mut left = Vec::new();
+        for (k, (vertex, side)) in polygon.iter().enumerate() {
+            let next = (k + 1) % polygon.len();
+            if at[k] >= 0 {
+                left.push((*vertex, if at[k] == 0 && at[next] < 0 { Side::Plane } else { *side }));
+            }
+            if at[k] < 0 && at[next] > 0 || at[k] > 0 && at[next] < 0 {
+                let point = clip::cut(vertex, &polygon[next].0, at[k], at[next]);
+                left.push((point, if at[k] < 0 { *side } else { Side::Plane }));
+            }
+        }
+        polygon = left;
+    }
+    let last = pieces.len() + 1;
+    let side = |k: usize| polygon.get(k).map_or(Side::Plane, |(_, side)| *side);
+    let first = |k: usize| if k == 1 { side(0) } else { Side::Inside };
+    (1..last).map(|k| [first(k), side(k), if k + 1 == last { side(last) } else { Side::Inside }]).collect()
 }
 
 /// The base edge that both places lie on.

@@ -67,7 +67,7 @@ pub mod displaced {
     pub const BITS: u32 = 102;
 
     /// A displaced vertex in a strip unit of so many components of so many bits each: as it is where each lane fits a
-    /// component, otherwise one lane's bits behind the other's, from the lowest of component 0 on. `components bits` are
+    /// component, otherwise one lane's bits behind the other's, from the lowest of component 0 on. `components * bits` is
     /// at least [`BITS`].
     pub fn pack(vertex: &Vertex, components: usize, bits: u32) -> Vertex {
         if bits >= 32 && components >= WIDTHS.len() {

@@ -172,6 +172,7 @@ impl Measure<'_> {
             (false, Some([x, y, c])) => {
                 out.flags += u64::from(c < 0.999 && x.abs() <= half[0] && y.abs() <= half[1]);
             }
+            (true, None) => out.flags += 1,
             _ => {}
         }
     }

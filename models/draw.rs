@@ -95,7 +95,7 @@ pub enum DrawError {
     #[error("the viewport is {0} x {1} pixels; 1 to 8192 are supported on each side")]
     Viewport(u32, u32),
     #[error(
-        "`fov_y_deg` is {degrees} over {rows} rows of `viewport`, a focal length of {focal} pixels, and 1/16 to 65535 are \
+        "`fov_y_deg` is {degrees} over {rows} rows of `viewport`, a focal length of {focal} pixels, and 0.0626 to 65535 are \
          supported; an angle from {low} to {high} degrees is expected"
     )]
     Focal { degrees: String, rows: u32, focal: String, low: String, high: String },
@@ -320,6 +320,9 @@ pub struct Draw {
     z0: f64,
 }
 
+/// The shortest focal length, pixels: above 1/16, at which a pixel of the transform is no longer exact.
+const LEAST_FOCAL: f64 = 0.0626;
+
 /// `value / 2^exponent` as integer, round half up.
 fn quantise(value: f64, exponent: i32) -> i64 {
     // Saturates; callers have checked the range.
@@ -368,14 +371,14 @@ impl Draw {
         let [columns, rows] = camera.viewport.map(f64::from);
         let tangent = libm::tan(camera.fov_y / 2.0);
         let (pixel, focal) = (2.0 * tangent / rows, rows / (2.0 * tangent));
-        if !(0.0625..=65535.0).contains(&focal) {
+        if !(LEAST_FOCAL..=65535.0).contains(&focal) {
             let degrees = |focal: f64| (2.0 * libm::atan(rows / (2.0 * focal))).to_degrees();
             return Err(DrawError::Focal {
                 degrees: short(camera.fov_y.to_degrees()),
                 rows: camera.viewport[1],
                 focal: short(focal),
                 low: short((degrees(65535.0) * 1e3).ceil() / 1e3),
-                high: short((degrees(0.0625) * 1e3).floor() / 1e3),
+                high: short((degrees(LEAST_FOCAL) * 1e3).floor() / 1e3),
             });
         }
         // Rows right, down, forward.

@@ -10,8 +10,8 @@
 //! the scene (no base triangle is left out that wider ones keep), a column memory its longest column (no vertex is sent
 //! twice), and a map that repeats has to keep its seam closed ([`Draw::seams_are_exact`]); the rest is up to the bound.
 //!
-//! Vertex and guard bits share the bound: of the pairs with the fewest bits in an accumulator, the one with the fewest
-//! vertex bits is taken. Each width is then tried with one less, all else as planned: what breaks is [`Choice::breaks`].
+//! Vertex and guard bits share the bound: of the least vertex bits and one and two more, each with its least guard bits, the
+//! pair with the fewest bits in an accumulator is taken. Each width is then tried with one less, all else as planned: what breaks is [`Choice::breaks`].
 
 use crate::displacement_pipeline::{Deviation, Measure};
 use crate::draw::{Assembled, Draw, DrawError};
@@ -33,6 +33,9 @@ pub struct Widths {
     pub levels: usize,
 }
 
+/// Triangles beyond which a scene is refused.
+pub const MOST_TRIANGLES: u64 = 1 << 24;
+
 /// Wider than any scene needs: what plans are measured against. A column memory holds every column of 24-bit coordinates
 /// that ends within a scene.
 const WIDEST: Format =
@@ -49,9 +52,17 @@ pub enum PlanError {
         "no vertex of the scene lies within the picture, so there is no error to keep; a `target` on an object is expected"
     )]
     Nothing,
-    /// The bound is below what the datapath can do.
+    /// More triangles than are worth forty trials.
     #[error(
-        "an error of {bound} px cannot be kept: with the widest formats it is {least:.4} px; that much at least is expected"
+        "about {triangles} triangles would come of this scene, beyond the limit of {MOST_TRIANGLES}; a greater `cell_px` is expected"
+    )]
+    Much {
+        /// About so many.
+        triangles: u64,
+    },
+    /// The bound is below what the datapath does with the widest formats.
+    #[error(
+        "an error of {bound} px cannot be kept: it is {least:.4} px with the widest formats; that much at least is expected"
     )]
     Bound {
         /// What was asked for.
@@ -147,14 +158,20 @@ impl<'a> Planner<'a> {
     /// Prepares a scene.
     ///
     /// # Errors
-    /// It does not fit any widths.
+    /// It does not fit any widths, or is too much.
     pub fn new(scene: &'a Scene, progress: &'a dyn Progress) -> Result<Self, PlanError> {
+        let mut triangles = 0;
         let prepare = |(at, object): (usize, &'a Object)| {
             let draw = scene.draw(object, &scene.view(), &WIDEST).map_err(|error| PlanError::Draw(at, error))?;
-            let pieces = |index| draw.assemble(index).pieces().iter().map(|piece| piece.data).collect();
+            let assembled: Vec<Assembled> = (0..draw.triangles.len()).map(|index| draw.assemble(index)).collect();
+            triangles += assembled.iter().flat_map(Assembled::pieces).map(BaseTriangle::estimate).sum::<u64>();
+            if triangles > MOST_TRIANGLES {
+                return Err(PlanError::Much { triangles });
+            }
+            let pieces = |assembled: &Assembled| assembled.pieces().iter().map(|piece| piece.data).collect();
             // The reader of scenes has seen to it that a map has its levels.
             let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
-            Ok(PlannedObject { object, pyramid, whole: (0..draw.triangles.len()).map(pieces).collect() })
+            Ok(PlannedObject { object, pyramid, whole: assembled.iter().map(pieces).collect() })
         };
         let objects = scene.objects.iter().enumerate().map(prepare).collect::<Result<_, _>>()?;
         Ok(Self { scene, objects, progress, tried: AtomicU64::new(0) })
@@ -240,7 +257,12 @@ impl<'a> Planner<'a> {
         let pairs = (vertex_bits..=32).take(3).map(|bits| (bits, guard(bits)));
         let pair = pairs.min_by_key(|(vertex, guard)| (vertex + guard, *vertex)).unwrap_or((32, 24));
         widths = with(pair.0, pair.1);
-        let planned = self.try_widths(&widths)?;
+        // Halving takes it for granted that errors grow with what is left out; they nearly do.
+        let mut planned = self.try_widths(&widths)?;
+        while planned.deviation.max > bound && widths.format.vertex_bits < 32 {
+            widths.format.vertex_bits += 1;
+            planned = self.try_widths(&widths)?;
+        }
         Ok(Plan {
             bound,
             widest: at_widest,

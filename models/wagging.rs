@@ -12,9 +12,10 @@
 
 use crate::displace::displaced;
 use crate::displacement_pipeline::golden;
-use crate::draw::{CameraView, Draw, DrawError};
+use crate::draw::{Assembled, CameraView, Draw, DrawError, DropReason};
 use crate::mesh::Progress;
-use crate::remesher::Format;
+use crate::plan::MOST_TRIANGLES;
+use crate::remesher::{BaseTriangle, Format};
 use crate::scene::Scene;
 use crate::step::Vertex;
 use glam::DVec3;
@@ -40,6 +41,10 @@ pub struct Wagging {
     pub filtered: bool,
     /// Triangles of all frames.
     pub triangles: u64,
+    /// Columns of all frames that have a horizon to compare.
+    pub columns: u64,
+    /// Base triangles of all frames that the voxel grid does not reach; the reference's among them.
+    pub beyond_grid: u64,
     /// RMS of the change of the silhouette's error from frame to frame, pixels.
     pub wagging: f64,
     /// RMS of the error, pixels.
@@ -50,8 +55,27 @@ pub struct Wagging {
     pub jump: f64,
 }
 
-/// The horizon of a frame, by column; infinite where there is none. With the number of its triangles.
-type Horizon = (Vec<f64>, u64);
+/// The horizon of a frame, by column; infinite where there is none. With its triangles, and the base triangles left out.
+type Horizon = (Vec<f64>, u64, u64);
+
+/// Why a path was not measured.
+#[derive(Debug, thiserror::Error)]
+pub enum WaggingError {
+    /// An object, counted from 0, does not fit the formats in some frame.
+    #[error("object {0}: {1}")]
+    Draw(usize, #[source] DrawError),
+    /// More triangles than a frame should have.
+    #[error(
+        "about {triangles} triangles would come of a frame with cells of {cell_px} px, beyond the limit of {MOST_TRIANGLES}; \
+         greater `--cells` are expected"
+    )]
+    Much {
+        /// About so many.
+        triangles: u64,
+        /// At this cell; the reference has half of the smallest.
+        cell_px: f64,
+    },
+}
 
 /// The cell of the reference, as a share of the smallest one that is compared.
 const REFERENCE: f64 = 0.5;
@@ -59,14 +83,14 @@ const REFERENCE: f64 = 0.5;
 /// Measures each cell with and without filter.
 ///
 /// # Errors
-/// A frame does not fit the formats.
+/// A frame does not fit the formats, or is too much.
 pub fn measure(
     scene: &Scene,
     path: &Path,
     cells: &[f64],
     format: &Format,
     progress: &dyn Progress,
-) -> Result<Vec<Wagging>, DrawError> {
+) -> Result<Vec<Wagging>, WaggingError> {
     let finest = cells.iter().copied().fold(f64::INFINITY, f64::min) * REFERENCE;
     let kinds: Vec<(f64, bool)> =
         std::iter::once((finest, false)).chain(cells.iter().flat_map(|cell| [(*cell, false), (*cell, true)])).collect();
@@ -88,17 +112,24 @@ pub fn measure(
     Ok((1..kinds.len()).map(|kind| compare(kinds[kind], of(kind), of(0))).collect())
 }
 
-fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) -> Result<Horizon, DrawError> {
+fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) -> Result<Horizon, WaggingError> {
     let mut top = vec![f64::INFINITY; view.viewport[0] as usize];
-    let mut triangles = 0;
-    for object in &scene.objects {
-        let mut draw = scene.draw(object, view, format)?;
+    let (mut triangles, mut beyond, mut expected) = (0, 0, 0);
+    for (at, object) in scene.objects.iter().enumerate() {
+        let mut draw = scene.draw(object, view, format).map_err(|error| WaggingError::Draw(at, error))?;
         if !filtered {
             draw.level.levels = 1;
         }
         let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
-        for index in 0..draw.triangles.len() {
-            for piece in draw.assemble(index).pieces() {
+        let assembled: Vec<Assembled> = (0..draw.triangles.len()).map(|index| draw.assemble(index)).collect();
+        expected += assembled.iter().flat_map(Assembled::pieces).map(BaseTriangle::estimate).sum::<u64>();
+        if expected > MOST_TRIANGLES {
+            return Err(WaggingError::Much { triangles: expected, cell_px: view.cell_px });
+        }
+        for assembled in &assembled {
+            let dropped = |reason: &DropReason| *reason != DropReason::Near;
+            beyond += u64::from(matches!(assembled, Assembled::Dropped(reason) if dropped(reason)));
+            for piece in assembled.pieces() {
                 golden(&draw, format, &pyramid, piece, &mut |triangle| {
                     if Draw::is_drawable(&triangle) {
                         triangles += 1;
@@ -108,7 +139,7 @@ fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) ->
             }
         }
     }
-    Ok((top, triangles))
+    Ok((top, triangles, beyond))
 }
 
 /// Takes the edges of a triangle into a horizon.
@@ -157,7 +188,9 @@ fn compare((cell_px, filtered): (f64, bool), frames: &[Horizon], reference: &[Ho
     Wagging {
         cell_px,
         filtered,
-        triangles: frames.iter().map(|(_, triangles)| triangles).sum(),
+        triangles: frames.iter().map(|(_, triangles, _)| triangles).sum(),
+        columns: count,
+        beyond_grid: frames.iter().chain(reference).map(|(.., beyond)| beyond).sum(),
         wagging: mean(changes, pairs).sqrt(),
         error: mean(squares, count).sqrt(),
         mean: mean(sum, count),

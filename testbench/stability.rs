@@ -4,7 +4,7 @@
 //! Each map is there because of one weakness: a test that looks at the ends and the middle of an edge, a grid whose step is
 //! the period of the map, a feature of one sample, sides that no power of two fits, numbers at the ends of their range.
 
-use crate::frame::{self, prepare};
+use crate::frame::{self, FrameError, prepare};
 use crate::method::{Engine, Goal, Hardware, Method, MethodError, Verdict};
 use crate::pipeline::Pipeline;
 use crate::remesher::format;
@@ -13,7 +13,7 @@ use relief_hdl::widths::WIDTH_SETS;
 use relief_models::bake::Tolerance;
 use relief_models::failures::FailureScene;
 use relief_models::map::{HeightMap, Procedural};
-use relief_models::mesh::Progress;
+use relief_models::mesh::{InputError, Progress};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// A map with a weakness to look for.
@@ -142,13 +142,35 @@ pub fn rows(methods: &[&dyn Method], engine: Engine, progress: &dyn Progress) ->
     work.par_iter().map(row).collect()
 }
 
-/// Cycles of a failure scene on the blocks of the width set that has its formats, each beat compared with golden.
+/// Why a failure scene did not go through the hardware.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// No width set has its formats.
+    #[error("{0}: no width set has its formats")]
+    NoSet(&'static str),
+    /// The set does not hold it.
+    #[error("{0}: {1}")]
+    Refused(&'static str, InputError),
+    /// The hardware is at fault.
+    #[error("{0}: {1}")]
+    Frame(&'static str, FrameError),
+}
+
+impl SceneError {
+    /// Whether the hardware is wrong, rather than the input.
+    pub fn is_mismatch(&self) -> bool {
+        matches!(self, Self::Frame(_, error) if error.is_mismatch())
+    }
+}
+
+/// Cycles of the draw of a failure scene, up to its last strip, on the blocks of the width set that has its formats; each
+/// beat is compared with golden.
 ///
 /// # Errors
 /// The hardware is at fault, or does not hold the scene.
-pub fn cycles(failure: &FailureScene) -> Result<u64, Box<dyn std::error::Error + Send + Sync>> {
-    let set = WIDTH_SETS.iter().find(|set| format(set) == failure.format);
-    let set = set.ok_or_else(|| format!("no width set has the formats of the scene {}", failure.name))?;
-    let prepared = prepare(&failure.scene, set).map_err(|error| error.to_string())?;
-    Ok(frame::cycles(&prepared, &mut Pipeline::new(set)).map_err(|error| error.to_string())?)
+pub fn cycles(failure: &FailureScene) -> Result<u64, SceneError> {
+    let name = failure.name;
+    let set = WIDTH_SETS.iter().find(|set| format(set) == failure.format).ok_or(SceneError::NoSet(name))?;
+    let prepared = prepare(&failure.scene, set).map_err(|error| SceneError::Refused(name, error))?;
+    frame::cycles(&prepared, &mut Pipeline::new(set)).map_err(|error| SceneError::Frame(name, error))
 }

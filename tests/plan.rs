@@ -90,14 +90,17 @@ fn plan_and_run_refuse_with_a_sentence() -> Outcome {
         assert_eq!((code, stdout.as_str()), (Some(2), ""), "{stderr}");
         assert!(stderr.contains(sentence), "{stderr}");
     };
-    refused(&["plan", file, "--error", "0.001"], "with the widest formats it is 0.0");
+    refused(&["plan", file, "--error", "0.001"], "px with the widest formats");
     refused(&["plan", file, "--error", "-1"], "a number of pixels from 0.001 to 64 is expected");
     refused(&["plan", "nowhere.toml"], "nowhere.toml: cannot be opened");
     refused(&["run", file, "--param", "narrow"], "there is no width set `narrow`");
     refused(&["run", file, "--levels", "0"], "0 is not in 1..=15");
     let few = "width set position: the remesher format has vertices of 3 components of 32 bits, and this draw takes 5";
     refused(&["run", file, "--param", "position"], few);
-    refused(&["run", file, "--param", "position"], "the width sets default, large, terrain, small, deep have it");
+    refused(
+        &["run", file, "--param", "position"],
+        "the width sets default, large, terrain, terrain_large, small, deep have it",
+    );
     // A sphere's normals vary, so five components are too few.
     fs::write(&path, PLATE.replace("kind = \"grid\", cells = [6, 6], size = [2, 2]", "kind = \"sphere\""))?;
     let sphere = "[[object]] 1: width set terrain: the remesher format has vertices of 5 components of 28 bits, and this draw \

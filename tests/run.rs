@@ -83,10 +83,10 @@ fn run_writes_pictures_mesh_waveform_verilog_and_report() -> Outcome {
         let least = match block["name"].as_str() {
             Some("vertex_transform") => 81,
             Some("cull") => 128,
-            Some("clip") => 0,
             _ => 300,
         };
-        assert!(block["beats"].as_u64().is_some_and(|beats| beats >= least), "{block}");
+        let beats = block["beats"].as_u64();
+        assert!(beats.is_some_and(|beats| beats >= least) || block["name"] == "clip" && beats == Some(0), "{block}");
     }
     // A group for each base triangle, and one rim.
     let obj = fs::read_to_string(out.join("mesh.obj"))?;

@@ -2,6 +2,7 @@
 //! Scenes on which displacement is known to fail: none cracks, what is left out is counted, and a crack is noticed.
 
 use relief_models::closure::{Closure, closure};
+use relief_models::draw::Assembled;
 use relief_models::failures::{FailureScene, Outcome, outcome, scenes};
 
 fn named(name: &str) -> FailureScene {
@@ -68,6 +69,26 @@ fn closure_notices_a_crack() {
     }
     let cracked = closure(&draw, &failure.format, &pyramid);
     assert!(cracked.cracks > 10 && cracked.rim + cracked.dropped == 0, "{cracked:?}");
+    // At a cut base triangle, too: its copy of a corner asks for other texels.
+    let across = named("across z0");
+    let (scene, object) = (&across.scene, &across.scene.objects[0]);
+    let mut draw = scene.draw(object, &scene.view(), &across.format).unwrap();
+    draw.cull = false;
+    let pyramid = scene.pyramid(object).unwrap();
+    let cut =
+        (0..draw.triangles.len()).find(|k| matches!(draw.assemble(*k), Assembled::Cut(pieces) if pieces.len() > 1));
+    let (cut, copy) = (cut.unwrap(), draw.records.len() as u32);
+    assert_eq!(closure(&draw, &across.format, &pyramid).cracks, 0);
+    for k in 0..3 {
+        let mut record = draw.records[draw.triangles[cut][k] as usize];
+        record.texel[1] ^= 1 << 27;
+        draw.records.push(record);
+        draw.triangles[cut][k] = copy + k as u32;
+    }
+    let cracked = closure(&draw, &across.format, &pyramid);
+    assert!(cracked.cracks > 10, "{cracked:?}");
+    let (scene, object) = (&failure.scene, &failure.scene.objects[0]);
+    let pyramid = scene.pyramid(object).unwrap();
     // A base triangle that is gone leaves open edges for a reason.
     let mut draw = scene.draw(object, &scene.view(), &failure.format).unwrap();
     draw.cull = false;

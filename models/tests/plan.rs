@@ -23,7 +23,6 @@ fn plan_keeps_its_bound_and_one_less_does_not() {
     {
         let plan = plan(name, bound);
         assert!(plan.planned.deviation.max <= bound && plan.planned.deviation.vertices > 10_000, "{name}: {plan:?}");
-        assert!(plan.widest.deviation.max <= plan.planned.deviation.max, "{name}: {plan:?}");
         for choice in &plan.choices {
             match choice.breaks {
                 Breaks::Error(px) => assert!(px > bound, "{name}: {choice:?}"),

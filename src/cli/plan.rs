@@ -8,10 +8,11 @@ use std::path::PathBuf;
 use relief::synth::cost::{BLOCKS, Cost, PART, Planes};
 use relief::synth::figures::Figures;
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
+use relief_models::draw::DrawError;
 use relief_models::mesh::Progress;
 use relief_models::plan::{Breaks, Plan, PlanError, Planner, Trial, Widths};
 use relief_models::scene::{self, Entry, Scene};
-use relief_testbench::frame::{cycles, prepare, width_set};
+use relief_testbench::frame::{FrameError, cycles, prepare, width_set};
 use relief_testbench::pipeline::Pipeline;
 use relief_testbench::remesher::format;
 use serde::Serialize;
@@ -38,6 +39,9 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
 }
+
+/// DP16KD of an ECP5-85k.
+const BLOCK_RAMS: f64 = 208.0;
 
 fn pixels(text: &str) -> std::result::Result<f64, String> {
     let pixels = text.parse().ok().filter(|pixels| (0.001..=64.0).contains(pixels));
@@ -72,7 +76,11 @@ struct SetReport {
 pub fn run(arguments: &Arguments) -> Result {
     let scene = scene::read(&arguments.scene)?;
     let explain = |error: PlanError| match &error {
+        PlanError::Draw(_, cause @ (DrawError::Focal { .. } | DrawError::Extent { .. })) => {
+            scene.source.error(Entry::Camera, cause)
+        }
         PlanError::Draw(at, cause) => scene.source.error(Entry::Object(*at), cause),
+        PlanError::Much { .. } => scene.source.error(Entry::Remesh, &error),
         PlanError::Nothing => scene.source.error(Entry::Camera, &error),
         PlanError::Bound { .. } => scene.source.whole(error.to_string()),
     };
@@ -87,7 +95,18 @@ pub fn run(arguments: &Arguments) -> Result {
         Some(set) => {
             let widths = Widths { format: format(set), levels: plan.widths.levels };
             let trial = planner.try_widths(&widths).map_err(explain)?;
-            let beats = if arguments.hardware { Some(hardware(&scene, set, &plan, &meter)?) } else { None };
+            let beats = match arguments.hardware.then(|| hardware(&scene, set, &plan, &meter)) {
+                None => None,
+                Some(Ok(beats)) => Some(beats),
+                Some(Err(error)) => {
+                    meter.finish();
+                    if error.downcast_ref::<FrameError>().is_some_and(FrameError::is_mismatch) {
+                        write_all(stderr(), &format!("mismatch: {error}\n"))?;
+                        return Ok(Outcome::Mismatch);
+                    }
+                    return Err(error);
+                }
+            };
             let otherwise = width_set(&scene);
             let [cost, otherwise_cost] = [set, otherwise].map(|set| measured(&figures, set));
             Some(SetReport { name: set.name, trial, cost, otherwise: otherwise.name, otherwise_cost, beats })
@@ -123,7 +142,7 @@ fn smallest(plan: &Plan) -> Option<&'static WidthSet> {
             && set.bank_words() >= plan.bank_words
             && (1 << set.side_width()) > plan.side
     };
-    let size = |set: &&WidthSet| (set.components * set.accumulator_bits(), set.texel_bits, set.column_depth);
+    let size = |set: &&WidthSet| (set.components * set.accumulator_bits(), set.texel_bits, set.side_bits);
     WIDTH_SETS.iter().filter(suffices).min_by_key(size)
 }
 
@@ -165,11 +184,14 @@ fn savings(planes: &Planes, plan: &Plan) -> Vec<Cost> {
 fn measured(figures: &Figures, set: &WidthSet) -> Option<Cost> {
     let mut sum = Cost { lut: 0.0, ff: 0.0, bram: 0.0 };
     for block in BLOCKS {
-        // Sets of the same vertices have the same remesher and strip unit.
+        // Sets of the same vertices have the same remesher and strip unit, those of the same maps the same memory.
         let vertices = ["remesher", "strip_unit"].contains(&block);
-        let same = |name: &str| WIDTH_SETS.iter().any(|other| other.name == name && other.has_vertices_of(set));
-        let rows = || figures.rows.iter().filter(|row| row.block == block && row.target == PART);
-        let row = rows().find(|row| row.set == set.name).or_else(|| rows().find(|row| vertices && same(&row.set)))?;
+        let same = |other: &WidthSet| match vertices {
+            true => other.has_vertices_of(set),
+            false => (other.side_bits, other.texel_bits) == (set.side_bits, set.texel_bits),
+        };
+        let is_same = |name: &str| WIDTH_SETS.iter().any(|other| other.name == name && same(other));
+        let row = figures.rows.iter().find(|row| row.block == block && row.target == PART && is_same(&row.set))?;
         sum = Cost { lut: sum.lut + row.lut as f64, ff: sum.ff + row.ff as f64, bram: sum.bram + row.bram as f64 };
     }
     Some(sum)
@@ -183,7 +205,7 @@ fn text(arguments: &Arguments, plan: &Plan, saves: &[Cost], set: Option<&SetRepo
     let _ = writeln!(text, "bound                      {} px", plan.bound);
     let _ = writeln!(text, "error of the widest        {}", error(&plan.widest));
     let _ = writeln!(text, "error as planned           {}\n", error(&plan.planned));
-    let _ = writeln!(text, "{:26} {:>8} {:>8}  {:38} saves about", "width", "default", "planned", "one less");
+    let _ = writeln!(text, "{:26} {:>8} {:>8}  {:38} saves about", "width", "wide", "planned", "one less");
     let defaults = [
         default.components,
         default.vertex_bits,
@@ -195,10 +217,10 @@ fn text(arguments: &Arguments, plan: &Plan, saves: &[Cost], set: Option<&SetRepo
     for ((choice, was), saved) in plan.choices.iter().zip(defaults).zip(saves) {
         let breaks = match choice.breaks {
             Breaks::Error(px) => format!("{px:.4} px"),
-            Breaks::Places(count) => format!("{count} vertices lose their place"),
-            Breaks::Grid(count) => format!("{count} base triangles beyond the grid"),
+            Breaks::Places(count) => format!("vertices without a place: {count}"),
+            Breaks::Grid(count) => format!("base triangles beyond the grid: {count}"),
             Breaks::Seam => "a seam may open".into(),
-            Breaks::Again(count) => format!("{count} vertices sent twice"),
+            Breaks::Again(count) => format!("vertices sent again: {count}"),
             Breaks::Components(least) => format!("the draw takes {least}"),
             Breaks::Displaced => "no room for displaced vertices".into(),
             Breaks::Least => "cannot be less".into(),
@@ -224,11 +246,20 @@ fn text(arguments: &Arguments, plan: &Plan, saves: &[Cost], set: Option<&SetRepo
                 let [lut, ff, bram] = [share(cost.lut, all.lut), share(cost.ff, all.ff), share(cost.bram, all.bram)];
                 let heading = format!("its cells, of {}'s", set.otherwise);
                 let _ = writeln!(text, "{heading:26} {lut} LUT, {ff} FF, {bram} DP16KD");
+                let _ =
+                    writeln!(text, "                           ({}: the blocks that depend on it)", BLOCKS.join(", "));
+                if cost.bram > BLOCK_RAMS {
+                    let _ = writeln!(
+                        text,
+                        "                           more block RAM than the {BLOCK_RAMS} of an ECP5-85k"
+                    );
+                }
             }
             if let Some(beats) = set.beats {
                 let _ = writeln!(text, "on its hardware            {beats} beats equal golden");
             }
-            let (scene, levels) = (arguments.scene.display(), plan.widths.levels);
+            let (scene, levels) = (arguments.scene.display().to_string(), plan.widths.levels);
+            let scene = if scene.contains(char::is_whitespace) { format!("'{scene}'") } else { scene };
             let _ =
                 writeln!(text, "to run it                  relief run {scene} --param {} --levels {levels}", set.name);
         }

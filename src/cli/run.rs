@@ -19,8 +19,8 @@ use super::{Meter, Outcome, Result, select, write_all};
 /// Take a scene with a height map through the displacement pipeline
 ///
 /// Base triangles go through transform, culling, remesher, level choice, height fetch, displacement, strip unit, light and
-/// rasteriser. All but the rasteriser run as hardware, and every beat of it is compared with its golden model; the
-/// report says which stages are golden. docs/scene.md tells what a scene file holds.
+/// rasteriser. All but the rasteriser, and light if there are several, run as hardware, every beat compared with golden;
+/// the report says which stages are golden. docs/scene.md tells what a scene file holds.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The scene (TOML)

@@ -7,8 +7,9 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 use relief_hdl::widths::WIDTH_SETS;
+use relief_models::draw::DrawError;
 use relief_models::scene::{self, Entry};
-use relief_models::wagging::{Path, Wagging, measure};
+use relief_models::wagging::{Path, Wagging, WaggingError, measure};
 use relief_testbench::remesher::format;
 use serde::Serialize;
 
@@ -66,8 +67,20 @@ pub fn run(arguments: &Arguments) -> Result {
     let meter = Meter::new();
     let rows = measure(&scene, &path, &arguments.cells, &format(&WIDTH_SETS[0]), &meter);
     meter.finish();
-    let rows = rows.map_err(|error| scene.source.error(Entry::Camera, error))?;
-    if rows.iter().all(|row| row.error == 0.0) {
+    let rows = rows.map_err(|error| match &error {
+        WaggingError::Draw(_, cause @ (DrawError::Focal { .. } | DrawError::Extent { .. })) => {
+            scene.source.error(Entry::Camera, format!("on its path: {cause}"))
+        }
+        WaggingError::Draw(at, cause) => scene.source.error(Entry::Object(*at), cause),
+        WaggingError::Much { .. } => scene.source.whole(error.to_string()),
+    })?;
+    let beyond = rows.iter().map(|row| row.beyond_grid).max().unwrap_or(0);
+    if beyond > 0 {
+        let warning = format!("base triangles are left out {beyond} times, because the voxel grid does not reach them");
+        let warning = scene.source.error(Entry::Remesh, format!("{warning}; greater `--cells` reach farther"));
+        write_all(stderr(), &format!("warning: {warning}\n"))?;
+    }
+    if rows.iter().all(|row| row.columns == 0) {
         let warning = "no column of the picture has a horizon that can be compared; a `target` on an object shows one";
         write_all(stderr(), &format!("warning: {}\n", scene.source.error(Entry::Camera, warning)))?;
     }

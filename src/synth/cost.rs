@@ -11,7 +11,7 @@ use super::figures::Figures;
 /// The part whose measured cells the planes go through.
 pub const PART: &str = "ecp5-85k";
 
-/// The blocks that a scene's vertices and maps go through in `relief run`.
+/// The blocks of a draw whose size depends on the width set.
 pub const BLOCKS: [&str; 4] = ["mip_build", "remesher", "mip_fetch", "strip_unit"];
 
 /// Look-up tables, flip-flops and block RAMs.
