@@ -445,14 +445,14 @@ fn cli_emitted_bench_passes_without_rust() -> Outcome {
     }
     let folder = tempfile::tempdir()?;
     let out = path(folder.path(), "out");
-    assert_eq!(relief(&["emit", "--param", "small", "--vectors", "40", "--out", &out]).0, Some(0));
+    assert_eq!(relief(&["emit", "--param", "small", "--vectors", "120", "--out", &out]).0, Some(0));
     for block in NAMES {
         let folder = Path::new(&out).join(block);
         let beats = fs::read_to_string(folder.join("out.hex"))?.lines().count();
         assert!(beats > 10);
         for options in [&[][..], &["+idle=0", "+stall=0"], &["+idle=60", "+stall=60", "+seed=9"]] {
             let (code, said) = run_bench(&folder, block, options);
-            let pass = format!("PASS: 40 of 40 beats in, {beats} of {beats} beats out, ");
+            let pass = format!("PASS: 120 of 120 beats in, {beats} of {beats} beats out, ");
             assert!(code == Some(0) && said.contains(&pass), "{block} {options:?}: {said}");
         }
         // One golden bit turned round is noticed.
