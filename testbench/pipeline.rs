@@ -365,7 +365,7 @@ impl Pipeline {
             self.units[REMESHER].take(room);
             self.units[DRAW].iter_mut().for_each(Unit::settle);
             if let Some(recording) = recording {
-                recording.sample(&self.units[DRAW], self.counts.cycles)?;
+                recording.sample(&self.units[DRAW], self.counts.cycles + self.counts.shading_cycles)?;
             }
             let outputs = &self.units[REMESHER].stage;
             let has_step = outputs.outputs[outputs.layout.out_valid] == 1;

@@ -105,7 +105,8 @@ fn cli_bad_input_exits_with_2_and_says_what_would_be_right() {
     fs::write(&stimulus, "# nothing\n 1 2 3\n").unwrap();
     let block = "there is no block `adder`; the blocks are vertex_adder, strip_unit, remesher, mip_build, mip_fetch, sat_build, \
          sat_fetch, sat_fetch_parallel, sat_average";
-    let set = "there is no width set `huge`; --param takes default, large, position, terrain, terrain_large, small, deep";
+    let set =
+        "there is no width set `huge`; --param takes default, large, position, terrain, terrain_large, small, deep";
     for (arguments, sentence) in [
         (vec!["check", "adder"], block),
         (vec!["sim", "adder"], block),
