@@ -137,7 +137,12 @@ impl<'a> Bench<'a> {
             device.settle(&seen, &mut vec![0; layout.output_words]);
         }
         self.stall = if sends && !takes { self.stall + 1 } else { 0 };
-        self.rest = if offered { 0 } else { self.rest + 1 };
+        // A block may look at a beat for some cycles before it takes it.
+        self.rest = match (offered, outputs[layout.in_ready] == 1) {
+            (true, true) => 0,
+            (true, false) => self.rest,
+            (false, _) => self.rest + 1,
+        };
     }
 
     fn check(&mut self, takes: bool) -> Result<(), String> {
