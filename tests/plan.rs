@@ -108,7 +108,8 @@ fn plan_and_run_refuse_with_a_sentence() -> Outcome {
                   takes 9";
     refused(&["run", file, "--param", "terrain"], sphere);
     // A grid coordinate too narrow is a warning that says what width would do.
-    let long = PLATE.replace("size = [2, 2]", "size = [0.1, 5]").replace("cell_px = 4", "cell_px = 1");
+    let long = PLATE.replace("size = [2, 2]", "size = [0.01, 5]").replace("cell_px = 4", "cell_px = 1");
+    let long = long.replace("[320, 240]", "[640, 480]");
     fs::write(&path, long.replace("near = 0.3", "near = 0.05").replace("[0, -2.6, 1.7]", "[0, -2.6, 0.1]"))?;
     let out = folder.path().join("out");
     let (code, stdout, stderr) = relief(&["run", file, "--param", "small", "--out", out.to_str().ok_or("no path")?]);
