@@ -12,9 +12,9 @@
 
 use crate::clip;
 use crate::displace::displaced;
+use crate::displacement_pipeline::displaced_vertex;
 use crate::draw::{Assembled, Counts, Draw};
 use crate::mip_build::Pyramid;
-use crate::mip_fetch::{Filter, fetch};
 use crate::remesher::{Format, Place, observe};
 use crate::step::Vertex;
 use crate::vertex_transform::{ViewVertex, distance, view};
@@ -106,9 +106,7 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
             let mut known: FxHashMap<Place, Vertex> = FxHashMap::default();
             observe(format, piece, &mut |step, rung| {
                 let mut send = |place, vertex: &Vertex| {
-                    let request = draw.request(vertex);
-                    let q = fetch(pyramid, request.level as usize, request.u, request.v, Filter::Bilinear);
-                    known.insert(place, draw.displace(vertex, q));
+                    known.insert(place, displaced_vertex(draw, pyramid, vertex));
                 };
                 if step.sends_left() {
                     send(rung.next_left, &step.left_vertex);

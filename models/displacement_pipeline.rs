@@ -49,7 +49,8 @@ pub fn golden(
     debug_assert!(!unit.error(), "the remesher never asks for what the strip unit has not");
 }
 
-fn displaced_vertex(draw: &Draw, pyramid: &Pyramid, vertex: &Vertex) -> Vertex {
+/// A vertex of the remesher, displaced by its height.
+pub(crate) fn displaced_vertex(draw: &Draw, pyramid: &Pyramid, vertex: &Vertex) -> Vertex {
     let request = draw.request(vertex);
     draw.displace(vertex, mip_fetch::fetch(pyramid, request.level as usize, request.u, request.v, Filter::Bilinear))
 }
