@@ -259,7 +259,7 @@ mod tests {
         let small = small::SET;
         assert!(prepare(&scene, &WIDTH_SETS[0]).is_ok());
         // A side of 9 bits goes to 511.
-        assert!(prepare(&scene, &small).is_err_and(|error| !error.to_string().contains("[[object]] 1: the map")));
+        assert!(prepare(&scene, &small).is_ok());
         let scene = parse(&SCENE.replace("300", "512"), "scene.toml", Path::new("")).unwrap();
         let error = prepare(&scene, &small).err().unwrap().to_string();
         let expected = "scene.toml:5: [[object]] 1: the map ramp of 512 x 9 samples has a side beyond the limit of 511; a \
