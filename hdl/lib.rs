@@ -7,6 +7,7 @@ pub mod bisector;
 pub mod clip;
 pub mod cull;
 pub mod displace;
+pub mod displacement_pipeline;
 pub mod face_normal;
 pub mod filter_level;
 pub mod light;

@@ -1,0 +1,438 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The whole datapath as one design: commands in, lit triangles out.
+//!
+//! ```text
+//! in -+- constants -------------------------------------------> all
+//!     +- records, triangles -> assembly -+-> remesher -+-> vertices -> strip_unit -> shading -> out
+//!     +- map --------------------------- | ----------- | -> vertices
+//!     '- reports -> counters -> out      '-> passer ---'
+//! ```
+//! (Gumhold & Huettner 1999, figure 3.)
+//!
+//! | port     | format | meaning |   Golden: models::displacement_pipeline::Machine   Error: that of its parts
+//! | in_kind  | unsigned 3 | 0 constant, 1 record, 2 size of a level, 3 load of a sample, 4 triangle, 5 report |
+//! | in_index, in_value | unsigned 7, signed 63 | constant (0 ..= 43 of the transform, 64 ..= 80 of [`Constants`]) and its value; counter; place of a record |
+//! | in_data  | 9 x signed 48 | record; or level, width, height, base, pitch, two repeats; or level, i, j, sample; or places of three corners |
+//! | out_*    | stream | three vertices in winding order and their colour; or, with out_report, a counter |
+//! | error    | Bit    | sticky, of height fetch and strip unit |
+//!
+//! A beat that is not a triangle waits until the triangles before it have left. Constant 0 comes first after a reset, and
+//! clears the counters. A triangle without displacement passes by the remesher.
+
+mod assembly;
+mod constants;
+mod counters;
+mod lane_queue;
+mod narrow;
+mod passer;
+mod shading;
+mod vertices;
+
+pub use assembly::{Assembly, AssemblyState};
+pub use constants::Constants;
+pub use counters::{Counter, Counters};
+pub use lane_queue::LaneQueue;
+pub use narrow::{Narrow, NarrowLane};
+pub use passer::Passer;
+pub use shading::Shading;
+pub use vertices::Vertices;
+
+use crate::prelude::*;
+use crate::remesher::Remesher;
+use crate::strip_unit::StripUnit;
+
+/// The pipeline, for nine lanes of `V` bits: `W` to `K` as in [`Remesher`], `M` and `B` as in
+/// [`MipFetch`](crate::mip_fetch::MipFetch).
+#[derive(Clone, Debug, LogicBlock)]
+#[allow(missing_docs)]
+pub struct DisplacementPipeline<
+    const V: usize,
+    const W: usize,
+    const X: usize,
+    const N: usize,
+    const T: usize,
+    const A: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const B: usize,
+> {
+    pub clock: Input<ClockReset>,
+    /// A beat stands at the input.
+    pub in_valid: Input<Bit>,
+    /// It is taken at this edge.
+    pub in_ready: Output<Bit>,
+    /// 0 constant, 1 record, 2 size, 3 load, 4 triangle, 5 report.
+    pub in_kind: Input<U<3>>,
+    /// Constant, or counter.
+    pub in_index: Input<U<7>>,
+    /// Of a constant; place of a record.
+    pub in_value: Input<S<63>>,
+    /// Record; size; load; places of the corners.
+    pub in_data: Input<Lanes<9, 48>>,
+    /// A beat stands at the output.
+    pub out_valid: Output<Bit>,
+    /// It is taken at this edge.
+    pub out_ready: Input<Bit>,
+    /// A counter, not a triangle.
+    pub out_report: Output<Bit>,
+    /// The counter; 0 with a triangle.
+    pub out_value: Output<U<32>>,
+    /// X' of the three vertices, SQ13.8 pixels from the middle.
+    pub out_x: Output<Lanes<3, 22>>,
+    /// Y' likewise.
+    pub out_y: Output<Lanes<3, 22>>,
+    /// c', UQ0.31.
+    pub out_c: Output<Lanes<3, 32>>,
+    /// Heights, UQ16.8.
+    pub out_height: Output<Lanes<3, 25>>,
+    /// Red lowest, 8 bits each.
+    pub out_colour: Output<U<24>>,
+    /// Sticky: of the height fetch or the strip unit.
+    pub error: Output<Bit>,
+    constants: Gated<Constants>,
+    assembly: Gated<Assembly<V, N>>,
+    remesher: Gated<Remesher<9, V, W, X, N, T, A, P, K>>,
+    passer: Passer<V>,
+    vertices: Gated<Vertices<V, M, B>>,
+    strip_unit: Gated<StripUnit<3, 34, K>>,
+    shading: Gated<Shading>,
+    counters: Gated<Counters>,
+    /// Pieces between assembly and shading.
+    pieces: Register<U<8>>,
+    /// The counter is read, and is there.
+    reads: Register<Bit>,
+    reports: Register<Bit>,
+    clears: Register<Bit>,
+    report_index: Register<U<7>>,
+    /// Everything had left a cycle before.
+    rested: Register<Bit>,
+    idle: Wire<Bit>,
+    resting: Wire<Bit>,
+    is_constant: Wire<Bit>,
+    is_record: Wire<Bit>,
+    is_map: Wire<Bit>,
+    is_triangle: Wire<Bit>,
+    is_report: Wire<Bit>,
+    ours: Wire<Bit>,
+    piece_goes: Wire<Bit>,
+    ends: Wire<Bit>,
+    step_goes: Wire<Bit>,
+    lane_0: Wire<S<48>>,
+    lane_1: Wire<S<48>>,
+    lane_2: Wire<S<48>>,
+    lane_3: Wire<S<48>>,
+    lane_4: Wire<S<48>>,
+    lane_5: Wire<S<48>>,
+    lane_6: Wire<S<48>>,
+    culled: Wire<U<3>>,
+    no_x: Constant<Lanes<3, 22>>,
+    no_c: Constant<Lanes<3, 32>>,
+    no_height: Constant<Lanes<3, 25>>,
+}
+
+impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize> DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
+    /// A pipeline whose column memory holds `depth` vertices.
+    pub fn new(depth: usize) -> Self {
+        Self {
+            clock: Input::default(),
+            in_valid: Input::default(),
+            in_ready: Output::default(),
+            in_kind: Input::default(),
+            in_index: Input::default(),
+            in_value: Input::default(),
+            in_data: Input::default(),
+            out_valid: Output::default(),
+            out_ready: Input::default(),
+            out_report: Output::default(),
+            out_value: Output::default(),
+            out_x: Output::default(),
+            out_y: Output::default(),
+            out_c: Output::default(),
+            out_height: Output::default(),
+            out_colour: Output::default(),
+            error: Output::default(),
+            constants: Gated::default(),
+            assembly: Gated::default(),
+            remesher: Gated::new(Remesher::new(depth)),
+            passer: Passer::default(),
+            vertices: Gated::default(),
+            strip_unit: Gated::new(StripUnit::new(depth)),
+            shading: Gated::default(),
+            counters: Gated::default(),
+            pieces: Register::default(),
+            reads: Register::default(),
+            reports: Register::default(),
+            clears: Register::default(),
+            report_index: Register::default(),
+            rested: Register::default(),
+            idle: Wire::default(),
+            resting: Wire::default(),
+            is_constant: Wire::default(),
+            is_record: Wire::default(),
+            is_map: Wire::default(),
+            is_triangle: Wire::default(),
+            is_report: Wire::default(),
+            ours: Wire::default(),
+            piece_goes: Wire::default(),
+            ends: Wire::default(),
+            step_goes: Wire::default(),
+            lane_0: Wire::default(),
+            lane_1: Wire::default(),
+            lane_2: Wire::default(),
+            lane_3: Wire::default(),
+            lane_4: Wire::default(),
+            lane_5: Wire::default(),
+            lane_6: Wire::default(),
+            culled: Wire::default(),
+            no_x: Constant::new(Lanes::default()),
+            no_c: Constant::new(Lanes::default()),
+            no_height: Constant::new(Lanes::default()),
+        }
+    }
+}
+
+impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize> Logic for DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
+        dff_setup!(self, clock, pieces, reads, reports, clears, report_index, rested);
+        self.rested.d.next = self.idle.val();
+        self.resting.next = self.rested.q.val();
+
+        // Commands
+        self.is_constant.next = self.in_kind.val() == 0;
+        self.is_record.next = self.in_kind.val() == 1;
+        self.is_map.next = self.in_kind.val() == 2 || self.in_kind.val() == 3;
+        self.is_triangle.next = self.in_kind.val() == 4;
+        self.is_report.next = self.in_kind.val() == 5;
+        self.idle.next = self.assembly.idle.val()
+            && !self.pieces.q.val().any()
+            && self.vertices.idle.val()
+            && self.shading.idle.val()
+            && !self.reads.q.val()
+            && !self.reports.q.val();
+        // Those of the transform go on to the assembly, which has the say.
+        self.ours.next = self.is_constant.val() && self.in_index.val().get_bit(6);
+        self.assembly.in_valid.next = self.in_valid.val()
+            && (self.is_triangle.val()
+                || (self.idle.val() && (self.is_record.val() || (self.is_constant.val() && !self.ours.val()))));
+        self.in_ready.next = self.idle.val();
+        if self.is_triangle.val() {
+            self.in_ready.next = self.assembly.in_ready.val();
+        } else if self.is_map.val() {
+            self.in_ready.next = self.idle.val() && self.vertices.map_ready.val();
+        } else if self.is_record.val() || (self.is_constant.val() && !self.ours.val()) {
+            self.in_ready.next = self.idle.val() && self.assembly.in_ready.val();
+        } else if self.is_report.val() {
+            // The last cycle of the last triangle is counted by then.
+            self.in_ready.next = self.idle.val() && self.resting.val();
+        }
+        self.constants.write.next = self.in_valid.val() && self.in_ready.val() && self.is_constant.val();
+        self.constants.index.next = self.in_index.val();
+        self.constants.value.next = self.in_value.val();
+        self.clears.d.next =
+            self.in_valid.val() && self.in_ready.val() && self.is_constant.val() && !self.in_index.val().any();
+
+        self.lane_0.next = self.in_data.val().get_bit(0);
+        self.lane_1.next = self.in_data.val().get_bit(1);
+        self.lane_2.next = self.in_data.val().get_bit(2);
+        self.lane_3.next = self.in_data.val().get_bit(3);
+        self.lane_4.next = self.in_data.val().get_bit(4);
+        self.lane_5.next = self.in_data.val().get_bit(5);
+        self.lane_6.next = self.in_data.val().get_bit(6);
+
+        // Assembly
+        self.assembly.in_kind.next = bit_cast_to::<U<2>>(self.in_kind.val());
+        if self.is_triangle.val() {
+            self.assembly.in_kind.next = 2.into();
+        }
+        self.assembly.in_index.next = bit_cast_to::<U<6>>(self.in_index.val());
+        self.assembly.in_value.next = self.in_value.val();
+        self.assembly.in_data.next = self.in_data.val();
+        self.assembly.in_place.next = bit_cast_to::<U<9>>(self.in_value.val());
+        self.assembly.in_corner_0.next = bit_cast_to::<U<9>>(self.lane_0.val());
+        self.assembly.in_corner_1.next = bit_cast_to::<U<9>>(self.lane_1.val());
+        self.assembly.in_corner_2.next = bit_cast_to::<U<9>>(self.lane_2.val());
+        self.assembly.culls.next = self.constants.culls.val();
+        self.assembly.z0.next = self.constants.z0.val();
+        self.assembly.focal.next = self.constants.focal.val();
+        self.assembly.piece_ready.next = self.remesher.in_ready.val();
+        if self.constants.passes.val() {
+            self.assembly.piece_ready.next = self.passer.piece_ready.val();
+        }
+
+        // Steps
+        self.remesher.in_valid.next = self.assembly.piece_valid.val() && !self.constants.passes.val();
+        self.remesher.in_p0.next = self.assembly.piece_p0.val();
+        self.remesher.in_p1.next = self.assembly.piece_p1.val();
+        self.remesher.in_p2.next = self.assembly.piece_p2.val();
+        self.remesher.in_v0.next = self.assembly.piece_v0.val();
+        self.remesher.in_v1.next = self.assembly.piece_v1.val();
+        self.remesher.in_v2.next = self.assembly.piece_v2.val();
+        self.passer.piece_valid.next = self.assembly.piece_valid.val() && self.constants.passes.val();
+        self.passer.piece_v0.next = self.assembly.piece_v0.val();
+        self.passer.piece_v1.next = self.assembly.piece_v1.val();
+        self.passer.piece_v2.next = self.assembly.piece_v2.val();
+        self.vertices.in_valid.next = self.remesher.out_valid.val();
+        self.vertices.in_kind.next = self.remesher.out_kind.val();
+        self.vertices.in_left.next = self.remesher.out_left.val();
+        self.vertices.in_right.next = self.remesher.out_right.val();
+        self.vertices.in_swap.next = self.remesher.out_swap.val();
+        self.vertices.in_last.next = self.remesher.out_last.val();
+        self.vertices.in_left_vertex.next = self.remesher.out_left_vertex.val();
+        self.vertices.in_right_vertex.next = self.remesher.out_right_vertex.val();
+        if self.constants.passes.val() {
+            self.vertices.in_valid.next = self.passer.out_valid.val();
+            self.vertices.in_kind.next = self.passer.out_kind.val();
+            self.vertices.in_left.next = self.passer.out_left.val();
+            self.vertices.in_right.next = self.passer.out_right.val();
+            self.vertices.in_swap.next = false;
+            self.vertices.in_last.next = self.passer.out_last.val();
+            self.vertices.in_left_vertex.next = self.passer.out_left_vertex.val();
+            self.vertices.in_right_vertex.next = self.passer.out_right_vertex.val();
+        }
+        self.remesher.out_ready.next = self.vertices.in_ready.val() && !self.constants.passes.val();
+        self.passer.out_ready.next = self.vertices.in_ready.val() && self.constants.passes.val();
+
+        // Vertices
+        self.vertices.map_valid.next = self.in_valid.val() && self.idle.val() && self.is_map.val();
+        self.vertices.map_loads.next = self.in_kind.val().get_bit(0);
+        self.vertices.map_level.next = bit_cast_to::<U<4>>(self.lane_0.val());
+        self.vertices.map_i.next = bit_cast_to::<U<M>>(self.lane_1.val());
+        self.vertices.map_j.next = bit_cast_to::<U<M>>(self.lane_2.val());
+        self.vertices.map_value.next = bit_cast_to::<U<16>>(self.lane_3.val());
+        self.vertices.map_base.next = bit_cast_to::<U<B>>(self.lane_3.val());
+        self.vertices.map_pitch.next = bit_cast_to::<U<M>>(self.lane_4.val());
+        self.vertices.map_repeat_u.next = self.lane_5.val().any();
+        self.vertices.map_repeat_v.next = self.lane_6.val().any();
+        self.vertices.passes.next = self.constants.passes.val();
+        self.vertices.axis_u.next = self.constants.axis_u.val();
+        self.vertices.axis_v.next = self.constants.axis_v.val();
+        self.vertices.level.next = self.constants.level.val();
+        self.vertices.minimum.next = self.constants.minimum.val();
+        self.vertices.range.next = self.constants.range.val();
+        self.vertices.exponent.next = self.constants.exponent.val();
+        self.vertices.focal.next = self.constants.focal.val();
+        self.vertices.out_ready.next = self.strip_unit.in_ready.val();
+
+        // Strips
+        self.strip_unit.in_valid.next = self.vertices.out_valid.val();
+        self.strip_unit.in_kind.next = self.vertices.out_kind.val();
+        self.strip_unit.in_left.next = self.vertices.out_left.val();
+        self.strip_unit.in_right.next = self.vertices.out_right.val();
+        self.strip_unit.in_swap.next = self.vertices.out_swap.val();
+        self.strip_unit.in_last.next = self.vertices.out_last.val();
+        self.strip_unit.in_left_vertex.next = self.vertices.out_left_vertex.val();
+        self.strip_unit.in_right_vertex.next = self.vertices.out_right_vertex.val();
+        self.strip_unit.out_ready.next = self.shading.in_ready.val();
+
+        // Triangles
+        self.shading.in_valid.next = self.strip_unit.out_valid.val();
+        self.shading.in_first.next = self.strip_unit.out_first.val();
+        self.shading.in_second.next = self.strip_unit.out_second.val();
+        self.shading.in_swap.next = self.strip_unit.out_swap.val();
+        self.shading.in_left.next = self.strip_unit.out_left.val();
+        self.shading.in_right.next = self.strip_unit.out_right.val();
+        self.shading.in_next_left.next = self.strip_unit.out_next_left.val();
+        self.shading.in_next_right.next = self.strip_unit.out_next_right.val();
+        self.shading.skips.next = self.constants.skips.val();
+        self.shading.half_width.next = self.constants.half_width.val();
+        self.shading.half_height.next = self.constants.half_height.val();
+        self.shading.pixel.next = self.constants.pixel.val();
+        self.shading.ramp_0.next = self.constants.ramp_0.val();
+        self.shading.ramp_1.next = self.constants.ramp_1.val();
+        self.shading.ramp_2.next = self.constants.ramp_2.val();
+        self.shading.ramp_3.next = self.constants.ramp_3.val();
+        self.shading.ramp_4.next = self.constants.ramp_4.val();
+        self.shading.ambient.next = self.constants.ambient.val();
+        self.shading.shine.next = self.constants.shine.val();
+        self.shading.direction.next = self.constants.direction.val();
+        self.shading.colour.next = self.constants.colour.val();
+        self.shading.out_ready.next = self.out_ready.val();
+
+        // What leaves: a report is alone.
+        self.reads.d.next = self.in_valid.val() && self.in_ready.val() && self.is_report.val();
+        if self.in_valid.val() && self.in_ready.val() {
+            self.report_index.d.next = self.in_index.val();
+        }
+        if self.reads.q.val() {
+            self.reports.d.next = true;
+        } else if self.out_ready.val() {
+            self.reports.d.next = false;
+        }
+        self.out_valid.next = self.shading.out_valid.val() || self.reports.q.val();
+        self.out_report.next = self.reports.q.val();
+        self.out_value.next = 0.into();
+        self.out_x.next = self.shading.out_x.val();
+        self.out_y.next = self.shading.out_y.val();
+        self.out_c.next = self.shading.out_c.val();
+        self.out_height.next = self.shading.out_height.val();
+        self.out_colour.next = self.shading.out_colour.val();
+        if self.reports.q.val() {
+            self.out_value.next = self.counters.value.val();
+            self.out_x.next = self.no_x.val();
+            self.out_y.next = self.no_x.val();
+            self.out_c.next = self.no_c.val();
+            self.out_height.next = self.no_height.val();
+            self.out_colour.next = 0.into();
+        }
+        self.error.next = self.vertices.error.val() || self.strip_unit.error.val();
+
+        // Pieces on their way
+        self.piece_goes.next = self.assembly.piece_valid.val() && self.assembly.piece_ready.val();
+        self.ends.next =
+            self.strip_unit.out_valid.val() && self.shading.in_ready.val() && self.strip_unit.out_last.val();
+        if self.piece_goes.val() && !self.ends.val() {
+            self.pieces.d.next = self.pieces.q.val() + 1;
+        } else if !self.piece_goes.val() && self.ends.val() {
+            self.pieces.d.next = self.pieces.q.val() - 1;
+        }
+
+        // Counters
+        self.counters.clear.next = self.clears.q.val();
+        self.counters.index.next = self.report_index.q.val();
+        self.culled.next = self.assembly.reason.val();
+        self.step_goes.next = self.vertices.in_valid.val() && self.vertices.in_ready.val();
+        self.counters.bases.next = self.in_valid.val() && self.in_ready.val() && self.is_triangle.val();
+        self.counters.left.next = self.assembly.culled.val() && self.culled.val() == 0;
+        self.counters.right.next = self.assembly.culled.val() && self.culled.val() == 1;
+        self.counters.top.next = self.assembly.culled.val() && self.culled.val() == 2;
+        self.counters.bottom.next = self.assembly.culled.val() && self.culled.val() == 3;
+        self.counters.near_side.next = self.assembly.culled.val() && self.culled.val() == 4;
+        self.counters.far_side.next = self.assembly.culled.val() && self.culled.val() == 5;
+        self.counters.cut.next = self.assembly.cut.val();
+        self.counters.near.next = self.assembly.near.val();
+        self.counters.lane.next = self.assembly.lane.val();
+        self.counters.grid.next = self.assembly.grid.val();
+        self.counters.pieces.next = self.piece_goes.val();
+        self.counters.steps.next = self.step_goes.val();
+        self.counters.vertices.next = self.vertices.sends.val();
+        self.counters.triangles.next = self.shading.comes.val();
+        self.counters.invalid.next = self.shading.invalid.val();
+        self.counters.too_near.next = self.shading.near.val();
+        self.counters.beyond.next = self.shading.range.val();
+        self.counters.off.next = self.shading.off.val();
+        self.counters.sent.next = self.shading.out_valid.val() && self.out_ready.val();
+        self.counters.cycles.next = !self.idle.val();
+        self.counters.piece_waits.next = self.assembly.piece_valid.val() && !self.assembly.piece_ready.val();
+        self.counters.silent.next = self.pieces.q.val().any() && !self.vertices.in_valid.val();
+        self.counters.lacks_room.next = self.vertices.lacks_room.val();
+        self.counters.sends_second.next = self.vertices.sends_second.val();
+        self.counters.strip_waits.next = self.strip_unit.out_valid.val() && !self.shading.in_ready.val();
+        self.counters.out_waits.next = self.shading.out_valid.val() && !self.out_ready.val();
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("displacement_pipeline")
+    }
+}
+
+ports! {
+    [const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize] DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
+        inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
+        outputs: in_ready, out_valid, out_report, out_value, out_x, out_y, out_c, out_height, out_colour, error;
+        blocks: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters;
+        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, pieces, reads, reports, clears, report_index, rested
+    }
+}

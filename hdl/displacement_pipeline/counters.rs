@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Counters of a draw: 32 bits each, which stop at the largest number.
+//!
+//! | port  | meaning |   Golden: models::displacement_pipeline::Machine, but for the cycles
+//! | clear | all counters become 0
+//! | index | the counter that is read: 0 .. 19 of what came, 24 .. 30 of cycles; the others are 0
+//! | value | it, a cycle later
+//! | others | one more of them
+
+use crate::prelude::*;
+
+/// One counter.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct Counter {
+    pub clock: Input<ClockReset>,
+    pub clear: Input<Bit>,
+    pub adds: Input<Bit>,
+    pub count: Output<U<32>>,
+    held: Register<U<32>>,
+}
+
+impl Logic for Counter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, held);
+        self.count.next = self.held.q.val();
+        if self.clear.val() {
+            self.held.d.next = 0.into();
+        } else if self.adds.val() && !self.held.q.val().all() {
+            self.held.d.next = self.held.q.val() + 1;
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("counter")
+    }
+}
+
+latches! { [] Counter: held }
+
+/// All counters.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct Counters {
+    pub clock: Input<ClockReset>,
+    pub clear: Input<Bit>,
+    pub index: Input<U<7>>,
+    pub value: Output<U<32>>,
+    pub bases: Input<Bit>,
+    pub left: Input<Bit>,
+    pub right: Input<Bit>,
+    pub top: Input<Bit>,
+    pub bottom: Input<Bit>,
+    pub near_side: Input<Bit>,
+    pub far_side: Input<Bit>,
+    pub cut: Input<Bit>,
+    pub near: Input<Bit>,
+    pub lane: Input<Bit>,
+    pub grid: Input<Bit>,
+    pub pieces: Input<Bit>,
+    pub steps: Input<Bit>,
+    pub vertices: Input<Bit>,
+    pub triangles: Input<Bit>,
+    pub invalid: Input<Bit>,
+    pub too_near: Input<Bit>,
+    pub beyond: Input<Bit>,
+    pub off: Input<Bit>,
+    pub sent: Input<Bit>,
+    pub cycles: Input<Bit>,
+    pub piece_waits: Input<Bit>,
+    pub silent: Input<Bit>,
+    pub lacks_room: Input<Bit>,
+    pub sends_second: Input<Bit>,
+    pub strip_waits: Input<Bit>,
+    pub out_waits: Input<Bit>,
+    bases_count: Counter,
+    left_count: Counter,
+    right_count: Counter,
+    top_count: Counter,
+    bottom_count: Counter,
+    near_side_count: Counter,
+    far_side_count: Counter,
+    cut_count: Counter,
+    near_count: Counter,
+    lane_count: Counter,
+    grid_count: Counter,
+    pieces_count: Counter,
+    steps_count: Counter,
+    vertices_count: Counter,
+    triangles_count: Counter,
+    invalid_count: Counter,
+    too_near_count: Counter,
+    beyond_count: Counter,
+    off_count: Counter,
+    sent_count: Counter,
+    cycles_count: Counter,
+    piece_waits_count: Counter,
+    silent_count: Counter,
+    lacks_room_count: Counter,
+    sends_second_count: Counter,
+    strip_waits_count: Counter,
+    out_waits_count: Counter,
+    chosen: Register<U<32>>,
+}
+
+impl Logic for Counters {
+    #[hdl_gen]
+    fn update(&mut self) {
+        clock!(self, clock, bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count);
+        clock!(self, clock, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count);
+        clock!(self, clock, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count);
+        clock!(self, clock, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count);
+        dff_setup!(self, clock, chosen);
+        self.value.next = self.chosen.q.val();
+        self.bases_count.clear.next = self.clear.val();
+        self.bases_count.adds.next = self.bases.val();
+        self.left_count.clear.next = self.clear.val();
+        self.left_count.adds.next = self.left.val();
+        self.right_count.clear.next = self.clear.val();
+        self.right_count.adds.next = self.right.val();
+        self.top_count.clear.next = self.clear.val();
+        self.top_count.adds.next = self.top.val();
+        self.bottom_count.clear.next = self.clear.val();
+        self.bottom_count.adds.next = self.bottom.val();
+        self.near_side_count.clear.next = self.clear.val();
+        self.near_side_count.adds.next = self.near_side.val();
+        self.far_side_count.clear.next = self.clear.val();
+        self.far_side_count.adds.next = self.far_side.val();
+        self.cut_count.clear.next = self.clear.val();
+        self.cut_count.adds.next = self.cut.val();
+        self.near_count.clear.next = self.clear.val();
+        self.near_count.adds.next = self.near.val();
+        self.lane_count.clear.next = self.clear.val();
+        self.lane_count.adds.next = self.lane.val();
+        self.grid_count.clear.next = self.clear.val();
+        self.grid_count.adds.next = self.grid.val();
+        self.pieces_count.clear.next = self.clear.val();
+        self.pieces_count.adds.next = self.pieces.val();
+        self.steps_count.clear.next = self.clear.val();
+        self.steps_count.adds.next = self.steps.val();
+        self.vertices_count.clear.next = self.clear.val();
+        self.vertices_count.adds.next = self.vertices.val();
+        self.triangles_count.clear.next = self.clear.val();
+        self.triangles_count.adds.next = self.triangles.val();
+        self.invalid_count.clear.next = self.clear.val();
+        self.invalid_count.adds.next = self.invalid.val();
+        self.too_near_count.clear.next = self.clear.val();
+        self.too_near_count.adds.next = self.too_near.val();
+        self.beyond_count.clear.next = self.clear.val();
+        self.beyond_count.adds.next = self.beyond.val();
+        self.off_count.clear.next = self.clear.val();
+        self.off_count.adds.next = self.off.val();
+        self.sent_count.clear.next = self.clear.val();
+        self.sent_count.adds.next = self.sent.val();
+        self.cycles_count.clear.next = self.clear.val();
+        self.cycles_count.adds.next = self.cycles.val();
+        self.piece_waits_count.clear.next = self.clear.val();
+        self.piece_waits_count.adds.next = self.piece_waits.val();
+        self.silent_count.clear.next = self.clear.val();
+        self.silent_count.adds.next = self.silent.val();
+        self.lacks_room_count.clear.next = self.clear.val();
+        self.lacks_room_count.adds.next = self.lacks_room.val();
+        self.sends_second_count.clear.next = self.clear.val();
+        self.sends_second_count.adds.next = self.sends_second.val();
+        self.strip_waits_count.clear.next = self.clear.val();
+        self.strip_waits_count.adds.next = self.strip_waits.val();
+        self.out_waits_count.clear.next = self.clear.val();
+        self.out_waits_count.adds.next = self.out_waits.val();
+        self.chosen.d.next = 0.into();
+        if self.index.val() == 0 {
+            self.chosen.d.next = self.bases_count.count.val();
+        } else if self.index.val() == 1 {
+            self.chosen.d.next = self.left_count.count.val();
+        } else if self.index.val() == 2 {
+            self.chosen.d.next = self.right_count.count.val();
+        } else if self.index.val() == 3 {
+            self.chosen.d.next = self.top_count.count.val();
+        } else if self.index.val() == 4 {
+            self.chosen.d.next = self.bottom_count.count.val();
+        } else if self.index.val() == 5 {
+            self.chosen.d.next = self.near_side_count.count.val();
+        } else if self.index.val() == 6 {
+            self.chosen.d.next = self.far_side_count.count.val();
+        } else if self.index.val() == 7 {
+            self.chosen.d.next = self.cut_count.count.val();
+        } else if self.index.val() == 8 {
+            self.chosen.d.next = self.near_count.count.val();
+        } else if self.index.val() == 9 {
+            self.chosen.d.next = self.lane_count.count.val();
+        } else if self.index.val() == 10 {
+            self.chosen.d.next = self.grid_count.count.val();
+        } else if self.index.val() == 11 {
+            self.chosen.d.next = self.pieces_count.count.val();
+        } else if self.index.val() == 12 {
+            self.chosen.d.next = self.steps_count.count.val();
+        } else if self.index.val() == 13 {
+            self.chosen.d.next = self.vertices_count.count.val();
+        } else if self.index.val() == 14 {
+            self.chosen.d.next = self.triangles_count.count.val();
+        } else if self.index.val() == 15 {
+            self.chosen.d.next = self.invalid_count.count.val();
+        } else if self.index.val() == 16 {
+            self.chosen.d.next = self.too_near_count.count.val();
+        } else if self.index.val() == 17 {
+            self.chosen.d.next = self.beyond_count.count.val();
+        } else if self.index.val() == 18 {
+            self.chosen.d.next = self.off_count.count.val();
+        } else if self.index.val() == 19 {
+            self.chosen.d.next = self.sent_count.count.val();
+        } else if self.index.val() == 24 {
+            self.chosen.d.next = self.cycles_count.count.val();
+        } else if self.index.val() == 25 {
+            self.chosen.d.next = self.piece_waits_count.count.val();
+        } else if self.index.val() == 26 {
+            self.chosen.d.next = self.silent_count.count.val();
+        } else if self.index.val() == 27 {
+            self.chosen.d.next = self.lacks_room_count.count.val();
+        } else if self.index.val() == 28 {
+            self.chosen.d.next = self.sends_second_count.count.val();
+        } else if self.index.val() == 29 {
+            self.chosen.d.next = self.strip_waits_count.count.val();
+        } else if self.index.val() == 30 {
+            self.chosen.d.next = self.out_waits_count.count.val();
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("counters")
+    }
+}
+
+watched! { [] Counters: clear, index, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, invalid, too_near, beyond, off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, chosen }
