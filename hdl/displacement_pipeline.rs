@@ -131,7 +131,19 @@ pub struct DisplacementPipeline<
     no_height: Constant<Lanes<3, 25>>,
 }
 
-impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize> DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
+impl<
+    const V: usize,
+    const W: usize,
+    const X: usize,
+    const N: usize,
+    const T: usize,
+    const A: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const B: usize,
+> DisplacementPipeline<V, W, X, N, T, A, P, K, M, B>
+{
     /// A pipeline whose column memory holds `depth` vertices.
     pub fn new(depth: usize) -> Self {
         Self {
@@ -192,13 +204,23 @@ impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: us
     }
 }
 
-impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize> Logic for DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
+impl<
+    const V: usize,
+    const W: usize,
+    const X: usize,
+    const N: usize,
+    const T: usize,
+    const A: usize,
+    const P: usize,
+    const K: usize,
+    const M: usize,
+    const B: usize,
+> Logic for DisplacementPipeline<V, W, X, N, T, A, P, K, M, B>
+{
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
         dff_setup!(self, clock, pieces, reads, reports, clears, report_index, rested);
-        self.rested.d.next = self.idle.val();
-        self.resting.next = self.rested.q.val();
 
         // Commands
         self.is_constant.next = self.in_kind.val() == 0;
@@ -212,6 +234,8 @@ impl<const V: usize, const W: usize, const X: usize, const N: usize, const T: us
             && self.shading.idle.val()
             && !self.reads.q.val()
             && !self.reports.q.val();
+        self.rested.d.next = self.idle.val();
+        self.resting.next = self.rested.q.val();
         // Those of the transform go on to the assembly, which has the say.
         self.ours.next = self.is_constant.val() && self.in_index.val().get_bit(6);
         self.assembly.in_valid.next = self.in_valid.val()

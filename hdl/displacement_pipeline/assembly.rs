@@ -87,7 +87,7 @@ pub struct Assembly<const V: usize, const N: usize> {
     pub grid: Output<Bit>,
     state: Register<AssemblyState>,
     transform: Gated<VertexTransform>,
-    narrow: Narrow<V>,
+    narrower: Narrow<V>,
     places: Gated<LaneQueue<1, 10, 2>>,
     cull: Gated<Cull>,
     clip: Gated<Clip>,
@@ -179,7 +179,7 @@ impl<const V: usize, const N: usize> Default for Assembly<V, N> {
             grid: Output::default(),
             state: Register::new(AssemblyState::Idle),
             transform: Gated::default(),
-            narrow: Narrow::default(),
+            narrower: Narrow::default(),
             places: Gated::default(),
             cull: Gated::default(),
             clip: Gated::default(),
@@ -231,9 +231,7 @@ impl<const V: usize, const N: usize> Logic for Assembly<V, N> {
     fn update(&mut self) {
         clock!(self, clock, transform, places, cull, clip, lanes, corners, views, flags);
         dff_setup!(self, clock, state, begun, records, place_0, place_1, place_2, p0, p1, p2, v0, v1, v2);
-        dff_setup!(
-            self, clock, view_0, view_1, view_2, flags_0, flags_1, flags_2, corner, vertices, last, fan, status
-        );
+        dff_setup!(self, clock, view_0, view_1, view_2, flags_0, flags_1, flags_2, corner, vertices, last, fan, status);
         self.is_idle.next = self.state.q.val() == AssemblyState::Idle;
         self.idle.next = self.is_idle.val();
 
@@ -274,7 +272,7 @@ impl<const V: usize, const N: usize> Logic for Assembly<V, N> {
         }
 
         // The memory is written with what the transform sends, and read at a corner.
-        self.narrow.whole.next = self.transform.out_data.val();
+        self.narrower.whole.next = self.transform.out_data.val();
         self.record_place.next = bit_cast_to::<U<10>>(self.places.head.val().get_bit(0));
         self.polygon_place.next = bit_cast_to::<U<10>>(self.vertices.q.val()) + self.first_place.val();
         self.flags_in.next = (bit_cast_to::<U<13>>(self.transform.out_outcode.val()) << 7)
@@ -286,6 +284,14 @@ impl<const V: usize, const N: usize> Logic for Assembly<V, N> {
         } else if self.state.q.val() == AssemblyState::ReadC {
             self.address.next = self.place_2.q.val();
         }
+        self.lanes.enable.next = true;
+        self.lanes.output_enable.next = true;
+        self.corners.enable.next = true;
+        self.corners.output_enable.next = true;
+        self.views.enable.next = true;
+        self.views.output_enable.next = true;
+        self.flags.enable.next = true;
+        self.flags.output_enable.next = true;
         self.lanes.read_address.next = self.address.val();
         self.corners.read_address.next = self.address.val();
         self.views.read_address.next = self.address.val();
@@ -304,7 +310,7 @@ impl<const V: usize, const N: usize> Logic for Assembly<V, N> {
         self.corners.write_enable.next = self.transform.out_valid.val();
         self.views.write_enable.next = self.transform.out_valid.val();
         self.flags.write_enable.next = self.transform.out_valid.val();
-        self.lanes.write_data.next = self.narrow.narrow.val();
+        self.lanes.write_data.next = self.narrower.narrow.val();
         self.corners.write_data.next = bit_cast_to::<Lanes<3, N>>(self.transform.out_corner.val());
         self.views.write_data.next = self.transform.out_view.val();
         self.flags.write_data.next = self.flags_in.val();
@@ -475,4 +481,4 @@ impl<const V: usize, const N: usize> Logic for Assembly<V, N> {
     }
 }
 
-watched! { [const V: usize, const N: usize] Assembly<V, N>: in_valid, in_kind, in_index, in_value, in_data, in_place, in_corner_0, in_corner_1, in_corner_2, culls, z0, focal, piece_ready; transform, narrow, places, cull, clip; state, transform, places, cull, clip, begun, records, lanes, corners, views, flags, place_0, place_1, place_2, p0, p1, p2, v0, v1, v2, view_0, view_1, view_2, flags_0, flags_1, flags_2, corner, vertices, last, fan, status }
+watched! { [const V: usize, const N: usize] Assembly<V, N>: in_valid, in_kind, in_index, in_value, in_data, in_place, in_corner_0, in_corner_1, in_corner_2, culls, z0, focal, piece_ready; transform, narrower, places, cull, clip; state, transform, places, cull, clip, begun, records, lanes, corners, views, flags, place_0, place_1, place_2, p0, p1, p2, v0, v1, v2, view_0, view_1, view_2, flags_0, flags_1, flags_2, corner, vertices, last, fan, status }

@@ -107,10 +107,39 @@ pub struct Counters {
 impl Logic for Counters {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count);
+        clock!(
+            self,
+            clock,
+            bases_count,
+            left_count,
+            right_count,
+            top_count,
+            bottom_count,
+            near_side_count,
+            far_side_count
+        );
         clock!(self, clock, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count);
-        clock!(self, clock, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count);
-        clock!(self, clock, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count);
+        clock!(
+            self,
+            clock,
+            triangles_count,
+            invalid_count,
+            too_near_count,
+            beyond_count,
+            off_count,
+            sent_count,
+            cycles_count
+        );
+        clock!(
+            self,
+            clock,
+            piece_waits_count,
+            silent_count,
+            lacks_room_count,
+            sends_second_count,
+            strip_waits_count,
+            out_waits_count
+        );
         dff_setup!(self, clock, chosen);
         self.value.next = self.chosen.q.val();
         self.bases_count.clear.next = self.clear.val();

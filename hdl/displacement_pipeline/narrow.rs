@@ -55,15 +55,15 @@ impl<const V: usize> Logic for NarrowLane<V> {
 pub struct Narrow<const V: usize> {
     pub whole: Input<Lanes<9, 32>>,
     pub narrow: Output<Lanes<9, V>>,
-    x: NarrowLane<V>,
-    y: NarrowLane<V>,
-    c: NarrowLane<V>,
-    nx: NarrowLane<V>,
-    ny: NarrowLane<V>,
-    nz: NarrowLane<V>,
-    u: NarrowLane<V>,
-    v: NarrowLane<V>,
-    density: NarrowLane<V>,
+    lane_x: NarrowLane<V>,
+    lane_y: NarrowLane<V>,
+    lane_c: NarrowLane<V>,
+    lane_nx: NarrowLane<V>,
+    lane_ny: NarrowLane<V>,
+    lane_nz: NarrowLane<V>,
+    lane_u: NarrowLane<V>,
+    lane_v: NarrowLane<V>,
+    lane_density: NarrowLane<V>,
     positive: Wire<S<V>>,
     lanes_1: Wire<Lanes<9, V>>,
     lanes_2: Wire<Lanes<9, V>>,
@@ -78,28 +78,28 @@ pub struct Narrow<const V: usize> {
 impl<const V: usize> Logic for Narrow<V> {
     #[hdl_gen]
     fn update(&mut self) {
-        self.x.whole.next = self.whole.val().get_bit(0);
-        self.y.whole.next = self.whole.val().get_bit(1);
-        self.c.whole.next = self.whole.val().get_bit(2);
-        self.nx.whole.next = self.whole.val().get_bit(3);
-        self.ny.whole.next = self.whole.val().get_bit(4);
-        self.nz.whole.next = self.whole.val().get_bit(5);
-        self.u.whole.next = self.whole.val().get_bit(6);
-        self.v.whole.next = self.whole.val().get_bit(7);
-        self.density.whole.next = self.whole.val().get_bit(8);
-        self.positive.next = self.c.narrow.val();
-        if self.c.narrow.val() < 1 {
+        self.lane_x.whole.next = self.whole.val().get_bit(0);
+        self.lane_y.whole.next = self.whole.val().get_bit(1);
+        self.lane_c.whole.next = self.whole.val().get_bit(2);
+        self.lane_nx.whole.next = self.whole.val().get_bit(3);
+        self.lane_ny.whole.next = self.whole.val().get_bit(4);
+        self.lane_nz.whole.next = self.whole.val().get_bit(5);
+        self.lane_u.whole.next = self.whole.val().get_bit(6);
+        self.lane_v.whole.next = self.whole.val().get_bit(7);
+        self.lane_density.whole.next = self.whole.val().get_bit(8);
+        self.positive.next = self.lane_c.narrow.val();
+        if self.lane_c.narrow.val() < 1 {
             self.positive.next = 1.into();
         }
-        self.lanes_1.next = bit_cast_to::<Lanes<9, V>>(self.x.narrow.val());
-        self.lanes_2.next = self.lanes_1.val().replace_bit(1, self.y.narrow.val());
+        self.lanes_1.next = bit_cast_to::<Lanes<9, V>>(self.lane_x.narrow.val());
+        self.lanes_2.next = self.lanes_1.val().replace_bit(1, self.lane_y.narrow.val());
         self.lanes_3.next = self.lanes_2.val().replace_bit(2, self.positive.val());
-        self.lanes_4.next = self.lanes_3.val().replace_bit(3, self.nx.narrow.val());
-        self.lanes_5.next = self.lanes_4.val().replace_bit(4, self.ny.narrow.val());
-        self.lanes_6.next = self.lanes_5.val().replace_bit(5, self.nz.narrow.val());
-        self.lanes_7.next = self.lanes_6.val().replace_bit(6, self.u.narrow.val());
-        self.lanes_8.next = self.lanes_7.val().replace_bit(7, self.v.narrow.val());
-        self.narrow.next = self.lanes_8.val().replace_bit(8, self.density.narrow.val());
+        self.lanes_4.next = self.lanes_3.val().replace_bit(3, self.lane_nx.narrow.val());
+        self.lanes_5.next = self.lanes_4.val().replace_bit(4, self.lane_ny.narrow.val());
+        self.lanes_6.next = self.lanes_5.val().replace_bit(5, self.lane_nz.narrow.val());
+        self.lanes_7.next = self.lanes_6.val().replace_bit(6, self.lane_u.narrow.val());
+        self.lanes_8.next = self.lanes_7.val().replace_bit(7, self.lane_v.narrow.val());
+        self.narrow.next = self.lanes_8.val().replace_bit(8, self.lane_density.narrow.val());
     }
 
     fn timing(&self) -> Vec<TimingInfo> {

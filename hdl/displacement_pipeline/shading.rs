@@ -8,7 +8,7 @@
 //!                               '-> X', Y', c', q ----------------------------------'
 //! ```
 //!
-//! A triangle goes on its way once there is a place for it at the end of it, so nothing on the way ever stands but the last.
+//! A triangle goes on its way once there is a place for it at the end of it, so nothing on the way ever stands.
 //!
 //! | port  | format | meaning |   Interval 1 a triangle; golden: models::displacement_pipeline::Machine
 //! | in_*  | stream | of the strip unit; vertices as `vertices` packs them |
@@ -90,6 +90,7 @@ pub struct Shading {
     face_normal: Gated<FaceNormal>,
     facing: Gated<LaneQueue<5, 25, 8>>,
     light: Gated<Light>,
+    colours: Gated<LaneQueue<1, 24, 8>>,
     lit_x: Gated<LaneQueue<3, 22, 8>>,
     lit_y: Gated<LaneQueue<3, 22, 8>>,
     lit_c: Gated<LaneQueue<3, 32, 8>>,
@@ -215,6 +216,7 @@ impl Default for Shading {
             face_normal: Gated::default(),
             facing: Gated::default(),
             light: Gated::default(),
+            colours: Gated::default(),
             lit_x: Gated::default(),
             lit_y: Gated::default(),
             lit_c: Gated::default(),
@@ -275,7 +277,7 @@ impl Default for Shading {
 impl Logic for Shading {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, face_normal, facing, light, lit_x, lit_y, lit_c, lit_height);
+        clock!(self, clock, face_normal, facing, light, colours, lit_x, lit_y, lit_c, lit_height);
         dff_setup!(self, clock, count, room, second, s1_valid, s1_a, s1_b, s1_c, s2_valid, s2_x, s2_y, s2_c, s2_height);
         dff_setup!(self, clock, s2_flags, s2_off, s3_valid, s3_x, s3_y, s3_c, s3_height);
         dff_setup!(self, clock, s3_invalid, s3_near, s3_range, s3_off);
@@ -386,14 +388,14 @@ impl Logic for Shading {
         self.face_normal.in_c.next = self.s3_c.q.val();
         self.face_normal.in_scale.next = self.pixel.val().get_bits::<24>(0);
         self.face_normal.in_shift.next = self.pixel.val().get_bits::<6>(24);
-        self.face_normal.out_ready.next = self.light.in_ready.val();
+        self.face_normal.out_ready.next = true;
         self.facing.push.next = self.s3_valid.q.val();
         self.p_1.next = bit_cast_to::<Lanes<5, 25>>(bit_cast_to::<S<25>>(self.s3_x.q.val().get_bit(0)));
         self.p_2.next = self.p_1.val().replace_bit(1, bit_cast_to::<S<25>>(self.s3_y.q.val().get_bit(0)));
         self.p_3.next = self.p_2.val().replace_bit(2, self.s3_height.q.val().get_bit(0));
         self.p_4.next = self.p_3.val().replace_bit(3, self.s3_height.q.val().get_bit(1));
         self.facing.data.next = self.p_4.val().replace_bit(4, self.s3_height.q.val().get_bit(2));
-        self.facing.take.next = self.face_normal.out_valid.val() && self.light.in_ready.val();
+        self.facing.take.next = self.face_normal.out_valid.val();
         self.lit_x.push.next = self.s3_valid.q.val();
         self.lit_x.data.next = self.s3_x.q.val();
         self.lit_y.push.next = self.s3_valid.q.val();
@@ -425,15 +427,18 @@ impl Logic for Shading {
         self.light.in_shininess.next = self.shine.val().get_bits::<8>(17);
         self.light.in_direction.next = self.direction.val();
         self.light.in_colour.next = self.colour.val();
-        self.light.out_ready.next = self.out_ready.val();
+        self.light.out_ready.next = true;
+        self.colours.push.next = self.light.out_valid.val();
+        self.colours.data.next = bit_cast_to::<Lanes<1, 24>>(bit_cast_to::<S<24>>(self.light.out_colour.val()));
 
-        self.out_valid.next = self.light.out_valid.val();
+        self.out_valid.next = self.colours.valid.val();
         self.out_x.next = self.lit_x.head.val();
         self.out_y.next = self.lit_y.head.val();
         self.out_c.next = self.lit_c.head.val();
         self.out_height.next = self.lit_height.head.val();
-        self.out_colour.next = self.light.out_colour.val();
-        self.takes.next = self.light.out_valid.val() && self.out_ready.val();
+        self.out_colour.next = bit_cast_to::<U<24>>(self.colours.head.val().get_bit(0));
+        self.takes.next = self.colours.valid.val() && self.out_ready.val();
+        self.colours.take.next = self.takes.val();
         self.lit_x.take.next = self.takes.val();
         self.lit_y.take.next = self.takes.val();
         self.lit_c.take.next = self.takes.val();
@@ -458,4 +463,4 @@ impl Logic for Shading {
     }
 }
 
-watched! { [] Shading: in_valid, in_first, in_second, in_swap, in_left, in_right, in_next_left, in_next_right, skips, half_width, half_height, pixel, ramp_0, ramp_1, ramp_2, ramp_3, ramp_4, ambient, shine, direction, colour, out_ready; face_normal, facing, light, lit_x, lit_y, lit_c, lit_height; count, room, second, s1_valid, s1_a, s1_b, s1_c, s2_valid, s2_x, s2_y, s2_c, s2_height, s2_flags, s2_off, s3_valid, s3_x, s3_y, s3_c, s3_height, s3_invalid, s3_near, s3_range, s3_off, face_normal, facing, light, lit_x, lit_y, lit_c, lit_height }
+watched! { [] Shading: in_valid, in_first, in_second, in_swap, in_left, in_right, in_next_left, in_next_right, skips, half_width, half_height, pixel, ramp_0, ramp_1, ramp_2, ramp_3, ramp_4, ambient, shine, direction, colour, out_ready; face_normal, facing, light, colours, lit_x, lit_y, lit_c, lit_height; count, room, second, s1_valid, s1_a, s1_b, s1_c, s2_valid, s2_x, s2_y, s2_c, s2_height, s2_flags, s2_off, s3_valid, s3_x, s3_y, s3_c, s3_height, s3_invalid, s3_near, s3_range, s3_off, face_normal, facing, light, colours, lit_x, lit_y, lit_c, lit_height }

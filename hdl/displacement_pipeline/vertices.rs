@@ -304,8 +304,7 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.filter_level.in_levels.next = self.level.val().get_bits::<5>(30);
         self.filter_level.out_ready.next = self.mip_fetch.in_ready.val();
         self.texels.push.next = self.perspective_correct.out_valid.val();
-        self.axis_texels.next =
-            bit_cast_to::<Lanes<2, 29>>(bit_cast_to::<S<29>>(self.perspective_correct.out_u.val()));
+        self.axis_texels.next = bit_cast_to::<Lanes<2, 29>>(bit_cast_to::<S<29>>(self.perspective_correct.out_u.val()));
         self.texels.data.next =
             self.axis_texels.val().replace_bit(1, bit_cast_to::<S<29>>(self.perspective_correct.out_v.val()));
         self.texels.take.next = self.filter_level.out_valid.val() && self.mip_fetch.in_ready.val();
