@@ -530,9 +530,43 @@ impl Draw {
         self.z0
     }
 
+    /// The constants alone, before any of them has come; the machine of a design writes them one by one.
+    pub(crate) fn blank(format: &Format, places: usize) -> Draw {
+        let (transform, volume) = vertex_transform::numbers::RESET;
+        let axis = Axis { size: 1, repeat: false, texel_bits: 1 };
+        let nothing = BaseVertex { position: [0; 3], normal: [0; 3], texel: [0; 2], density: 0 };
+        Draw {
+            cull: false,
+            transform,
+            volume,
+            level: filter_level::Constants { scale: 0, shift: 0, levels: 1 },
+            axes: [axis; 2],
+            displacement: displace::Constants { minimum: 0, range: 0, exponent: 0, focal: transform.focal },
+            lanes: Lanes { bits: format.vertex_bits, ..Lanes::WHOLE },
+            pixel: Pixel { scale: 0, shift: 16 },
+            material: Material { ramp: [[0; 3]; 5], ambient: [0; 3], specular: 0, shininess: 1 },
+            records: vec![nothing; places],
+            triangles: Vec::new(),
+            seams_are_exact: true,
+            exact_seams_near: 0.0,
+            eye: DVec3::ZERO,
+            z0: 1.0,
+        }
+    }
+
+    /// Whether it displaces nothing, whatever the map says.
+    pub const fn is_flat(&self) -> bool {
+        self.displacement.minimum == 0 && self.displacement.range == 0
+    }
+
     /// Transforms, culls and cuts base triangle `index`.
     pub fn assemble(&self, index: usize) -> Assembled {
-        let corners = self.triangles[index].map(|v| {
+        self.assemble_corners(self.triangles[index])
+    }
+
+    /// Transforms, culls and cuts the base triangle of three records.
+    pub fn assemble_corners(&self, corners: [u32; 3]) -> Assembled {
+        let corners = corners.map(|v| {
             let source = Source::Record(self.records[v as usize]);
             vertex_transform::golden(&self.transform, &self.volume, &source)
         });

@@ -26,6 +26,8 @@
 //!
 //! Example: z = 2 z0, x = 0 -> c = 0x3FFF_FFFF to within a unit (0.5), X = 0, corner z = octave.
 
+pub mod numbers;
+
 use crate::step::{MAX_COMPONENTS, Vertex};
 use crate::{cull, power, reciprocal};
 use serde::{Deserialize, Serialize};

@@ -10,6 +10,7 @@ use relief_hdl::vertex_transform::VertexTransform;
 use relief_hdl::widths::WidthSet;
 use relief_models::cull;
 use relief_models::step::MAX_COMPONENTS;
+use relief_models::vertex_transform::numbers::{self, NORMALS, values};
 use relief_models::vertex_transform::{
     BaseVertex, Constants, OutOfRange, Projected, Source, Transformed, ViewVertex, golden, lane,
 };
@@ -19,23 +20,8 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Copy, Debug)]
 pub struct VertexTransformBinding;
 
-/// Side and axis of the components of normals that are constants: those that are not always zero.
-const NORMALS: [[usize; 2]; 10] = [[0, 0], [0, 2], [1, 0], [1, 2], [2, 1], [2, 2], [3, 1], [3, 2], [4, 2], [5, 2]];
-
-/// The constants of a draw, each with its index.
-fn values(constants: &Constants, volume: &cull::Constants) -> Vec<(u64, i64)> {
-    let mut factors: Vec<i64> = constants.rotation.as_flattened().iter().copied().map(i64::from).collect();
-    factors.extend([constants.focal, constants.inverse_cell, constants.octave].map(i64::from));
-    factors.extend(NORMALS.map(|[side, axis]| i64::from(volume.normal[side][axis])));
-    let mut terms = constants.translation.to_vec();
-    terms.extend([constants.z0, i64::from(constants.grid_bias) << 10]);
-    terms.extend(volume.reach);
-    terms.push(1 << (constants.coordinate_bits - 1));
-    (0..).zip(factors).chain((32..).zip(terms)).collect()
-}
-
 /// The values that a constant may have.
-fn range(index: i64) -> Option<RangeInclusive<i64>> {
+pub(crate) fn range(index: i64) -> Option<RangeInclusive<i64>> {
     Some(match index {
         0..9 => -(1 << 30)..=1 << 30,
         9 => 4097..=u32::MAX.into(),
@@ -104,39 +90,15 @@ struct Golden {
 
 impl Default for Golden {
     fn default() -> Self {
-        let constants = Constants {
-            rotation: [[0; 3]; 3],
-            translation: [0; 3],
-            z0: 1 << 16,
-            focal: 1 << 16,
-            inverse_cell: 0,
-            octave: 0,
-            grid_bias: 0,
-            coordinate_bits: 1,
-        };
-        Self { begun: false, constants, volume: cull::Constants { normal: [[0; 3]; 6], reach: [0; 6] } }
+        let (constants, volume) = numbers::RESET;
+        Self { begun: false, constants, volume }
     }
 }
 
 impl Golden {
     fn write(&mut self, index: u64, value: i64) {
-        let Self { begun, constants, volume } = self;
-        *begun |= index == 0;
-        match index as usize {
-            k @ 0..9 => constants.rotation[k / 3][k % 3] = value as i32,
-            9 => constants.focal = value as u32,
-            10 => constants.inverse_cell = value as u32,
-            11 => constants.octave = value as u32,
-            k @ 12..22 => {
-                let [side, axis] = NORMALS[k - 12];
-                volume.normal[side][axis] = value as i32;
-            }
-            k @ 32..35 => constants.translation[k - 32] = value,
-            35 => constants.z0 = value,
-            36 => constants.grid_bias = (value >> 10) as i32,
-            k @ 37..43 => volume.reach[k - 37] = value,
-            _ => constants.coordinate_bits = value.ilog2() + 1,
-        }
+        self.begun |= index == 0;
+        numbers::write(&mut self.constants, &mut self.volume, index, value);
     }
 }
 

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The machine of the whole design against the chain of golden models that the harness runs.
+
+use glam::{DVec2, DVec3};
+use relief_models::cull::Reason;
+use relief_models::displace::displaced;
+use relief_models::displacement_pipeline::{Command, Machine, Sent, VERTEX_PLACES, commands, counter, golden};
+use relief_models::draw::{Assembled, CameraView, Draw, DrawVertex, DropReason, MapInfo};
+use relief_models::light::Light;
+use relief_models::mip_build::{self, Centring, Extremum, Pyramid, Wrap};
+use relief_models::remesher::Format;
+use relief_models::step::Vertex;
+
+const FORMAT: Format =
+    Format { components: 9, vertex_bits: 32, guard_bits: 13, coordinate_bits: 14, column_depth: 4096 };
+const NARROW: Format =
+    Format { components: 9, vertex_bits: 24, guard_bits: 10, coordinate_bits: 11, column_depth: 512 };
+
+const BANK_WORDS: usize = 1 << 14;
+const VIEWPORT: [u32; 2] = [48, 32];
+
+/// Longitude x latitude about the origin; columns 0 and `columns` in one place.
+fn sphere(columns: u32, rows: u32) -> (Vec<DrawVertex>, Vec<[u32; 3]>) {
+    grid(columns, rows, |u, v| {
+        let (longitude, latitude) = (std::f64::consts::TAU * (u % 1.0), std::f64::consts::PI * v);
+        let normal = match v {
+            0.0 => DVec3::Z,
+            1.0 => -DVec3::Z,
+            _ => DVec3::new(latitude.sin() * longitude.cos(), latitude.sin() * longitude.sin(), latitude.cos()),
+        };
+        DrawVertex { position: 0.5 * normal, normal, uv: DVec2::new(u, v) }
+    })
+}
+
+/// A ground of 4 x 4 units in the plane z = 0.
+fn ground(side: u32) -> (Vec<DrawVertex>, Vec<[u32; 3]>) {
+    grid(side, side, |u, v| DrawVertex {
+        position: DVec3::new(4.0 * u - 2.0, 4.0 * v - 2.0, 0.0),
+        normal: DVec3::Z,
+        uv: DVec2::new(u, v),
+    })
+}
+
+fn grid(columns: u32, rows: u32, vertex: impl Fn(f64, f64) -> DrawVertex) -> (Vec<DrawVertex>, Vec<[u32; 3]>) {
+    let at = |i, j| j * (columns + 1) + i;
+    let all = (0..=rows).flat_map(|j| (0..=columns).map(move |i| (i, j)));
+    let vertices = all.map(|(i, j)| vertex(f64::from(i) / f64::from(columns), f64::from(j) / f64::from(rows)));
+    let quads = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));
+    let triangles = quads.flat_map(|(i, j)| {
+        let [a, b, c, d] = [at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)];
+        [[a, b, c], [a, c, d]]
+    });
+    (vertices.collect(), triangles.collect())
+}
+
+fn camera(eye: DVec3, target: DVec3) -> CameraView {
+    CameraView {
+        eye,
+        target,
+        up: DVec3::new(0.1, 0.2, 1.0),
+        fov_y: 0.9,
+        near: 0.16,
+        far: 50.0,
+        viewport: VIEWPORT,
+        cell_px: 1.0,
+    }
+}
+
+const MAP: MapInfo = MapInfo { width: 16, height: 9, repeat: [true, false], levels: 3 };
+
+fn pyramid() -> Pyramid {
+    let samples: Vec<u16> = (0..16 * 9).map(|k: u32| (k * 7919 % 65_536) as u16).collect();
+    let wrap = [Wrap::Repeat, Wrap::Clamp];
+    mip_build::golden_with_poles(16, 9, &samples, Centring::Node, wrap, Extremum::Max, 3).unwrap()
+}
+
+fn light(draw: &Draw) -> Light {
+    draw.light(DVec3::new(0.4, -0.7, 0.9)).unwrap()
+}
+
+type Lit = ([Vertex; 3], [u8; 3]);
+
+/// What the machine sends for a draw: triangles and counters.
+fn machine(draw: &Draw, format: &Format, skips: bool) -> (Vec<Lit>, Vec<(u64, Option<u32>)>) {
+    let mut machine = Machine::new(format, VERTEX_PLACES, BANK_WORDS);
+    run(&mut machine, &commands(draw, &pyramid(), &light(draw), VIEWPORT, skips))
+}
+
+fn run(machine: &mut Machine, commands: &[Command]) -> (Vec<Lit>, Vec<(u64, Option<u32>)>) {
+    let (mut triangles, mut reports) = (Vec::new(), Vec::new());
+    for command in commands {
+        machine.accept(command, &mut |sent| match sent {
+            Sent::Triangle { vertices, colour } => triangles.push((vertices, colour)),
+            Sent::Report { counter, value } => reports.push((counter, value)),
+        });
+    }
+    assert!(!machine.error());
+    (triangles, reports)
+}
+
+/// What the harness makes of the same draw, and how many of its triangles have no place and are off the screen.
+fn chain(draw: &Draw, format: &Format, skips: bool) -> (Vec<Lit>, [u64; 2]) {
+    let (pyramid, light) = (pyramid(), light(draw));
+    let (mut out, mut left_out) = (Vec::new(), [0; 2]);
+    let half = VIEWPORT.map(|side| i64::from(side) * 128);
+    let mut take = |triangle: [Vertex; 3]| {
+        let on = |lane: usize| {
+            let at = triangle.map(|vertex| vertex[lane]);
+            *at.iter().max().unwrap() >= -half[lane] && *at.iter().min().unwrap() <= half[lane]
+        };
+        match () {
+            () if !Draw::is_drawable(&triangle) => left_out[0] += 1,
+            () if skips && !(on(0) && on(1)) => left_out[1] += 1,
+            () => out.push((triangle, draw.shade(triangle, &[light]))),
+        }
+    };
+    for index in 0..draw.triangles.len() {
+        for piece in draw.assemble(index).pieces() {
+            if draw.is_flat() {
+                take(piece.data.map(|vertex| draw.displace(&vertex, 0)));
+            } else {
+                golden(draw, format, &pyramid, piece, &mut take);
+            }
+        }
+    }
+    (out, left_out)
+}
+
+/// Compares the two, with and without skipping, and returns the counters without it.
+fn compare(draw: &Draw, format: &Format) -> Vec<u64> {
+    let mut first = None;
+    for skips in [false, true] {
+        let (triangles, reports) = machine(draw, format, skips);
+        let (expected, left_out) = chain(draw, format, skips);
+        assert!(triangles.len() == expected.len() && triangles == expected);
+        assert!(reports.iter().map(|(number, _)| *number as usize).eq(counter::all()));
+        assert!(reports.iter().all(|(number, value)| value.is_none() == counter::TIMES.contains(&(*number as usize))));
+        let counts: Vec<u64> = reports.iter().filter_map(|(_, value)| value.map(u64::from)).collect();
+        let sum = |from: usize, count: usize| counts[from..from + count].iter().sum::<u64>();
+        assert_eq!(counts[counter::BASES], draw.triangles.len() as u64);
+        let (mut kept, mut of_pieces) = (0, 0);
+        let mut by_reason = [0; 20];
+        for index in 0..draw.triangles.len() {
+            let assembled = draw.assemble(index);
+            of_pieces += assembled.pieces().len() as u64;
+            match assembled {
+                Assembled::Culled(reason) => by_reason[counter::CULLED + reason as usize] += 1,
+                Assembled::Dropped(reason) => by_reason[counter::DROPPED + reason as usize] += 1,
+                Assembled::Kept(_) => kept += 1,
+                Assembled::Cut(_) => (kept, by_reason[counter::CUT]) = (kept + 1, by_reason[counter::CUT] + 1),
+            }
+        }
+        assert_eq!(counts[1..11], by_reason[1..11]);
+        assert_eq!(counts[counter::BASES], sum(counter::CULLED, 6) + sum(counter::DROPPED, 3) + kept);
+        assert_eq!(counts[counter::PIECES], of_pieces);
+        assert_eq!([sum(counter::NO_PLACE, 3), counts[counter::OFF_SCREEN]], left_out);
+        assert_eq!(counts[counter::SENT], triangles.len() as u64);
+        assert_eq!(counts[counter::STRIP_TRIANGLES], sum(counter::NO_PLACE, 5));
+        if draw.is_flat() {
+            assert_eq!([counter::STEPS, counter::VERTICES].map(|k| counts[k]), [2 * of_pieces, 3 * of_pieces]);
+        }
+        first.get_or_insert(counts);
+    }
+    first.unwrap()
+}
+
+fn draw(view: &CameraView, mesh: &(Vec<DrawVertex>, Vec<[u32; 3]>), displacement: [f64; 2], format: &Format) -> Draw {
+    Draw::new(view, &mesh.0, &mesh.1, &MAP, displacement, format).unwrap()
+}
+
+#[test]
+fn machine_cuts_and_culls_as_the_chain_does() {
+    // Over the ground, low: some of it behind the eye, some left and right.
+    let view = camera(DVec3::new(0.1, -1.0, 0.12), DVec3::new(0.3, 1.0, 0.0));
+    for format in [FORMAT, NARROW] {
+        for side in [1, 4] {
+            let draw = draw(&view, &ground(side), [-0.02, 0.05], &format);
+            let counts = compare(&draw, &format);
+            println!("ground of {side}: {counts:?}");
+            assert!(counts[counter::CUT] > 0 && counts[counter::SENT] > 100);
+            assert!(counts[counter::PIECES] > counts[counter::CUT]);
+            assert!(side == 1 || counts[counter::CULLED + Reason::Near as usize] > 0);
+            let mut all = draw;
+            all.cull = false;
+            let counts = compare(&all, &format);
+            assert!(counts[counter::CULLED..][..6].iter().all(|count| *count == 0));
+            assert!(side == 1 || counts[counter::DROPPED + DropReason::Near as usize] > 0);
+        }
+    }
+}
+
+#[test]
+fn machine_leaves_out_triangles_without_a_place() {
+    // Displaced as far as the eye and beyond.
+    let view = camera(DVec3::new(0.0, -0.7, 0.5), DVec3::new(0.0, 0.4, 0.0));
+    let counts = compare(&draw(&view, &ground(2), [-0.2, 0.9], &FORMAT), &FORMAT);
+    println!("without a place: {:?}", &counts[counter::STRIP_TRIANGLES..]);
+    assert!(counts[counter::NO_PLACE..][..3].iter().sum::<u64>() > 0);
+    let (kept, _) = machine(&draw(&view, &ground(2), [-0.2, 0.9], &FORMAT), &FORMAT, true);
+    assert!(kept.iter().all(|(vertices, _)| vertices.iter().all(|vertex| vertex[displaced::FLAGS] == 0)));
+}
+
+#[test]
+fn machine_takes_a_body_in_groups() {
+    let body = sphere(32, 24);
+    assert!(body.0.len() > VERTEX_PLACES);
+    let view = camera(DVec3::new(0.7, -1.1, 0.4), DVec3::ZERO);
+    let draw = draw(&view, &body, [-0.02, 0.1], &FORMAT);
+    let counts = compare(&draw, &FORMAT);
+    assert_eq!(counts[counter::BASES], body.1.len() as u64);
+    // Every place fits, constant 0 comes once, and no triangle names a vertex that has not come.
+    let all = commands(&draw, &pyramid(), &light(&draw), VIEWPORT, false);
+    let first = all.iter().filter(|command| matches!(command, Command::Constant { number: 0, .. }));
+    assert_eq!(first.count(), 1);
+    let (mut filled, mut records) = ([false; VERTEX_PLACES], 0);
+    for command in &all {
+        match command {
+            Command::Record { place, .. } => (filled[*place], records) = (true, records + 1),
+            Command::Triangle { places } => assert!(places.iter().all(|place| filled[*place])),
+            _ => {}
+        }
+    }
+    assert!(records > body.0.len(), "the border of two groups is sent twice");
+}
+
+#[test]
+fn machine_passes_what_is_not_displaced() {
+    let view = camera(DVec3::new(0.1, -1.0, 0.3), DVec3::new(0.3, 1.0, 0.0));
+    let draw = draw(&view, &ground(3), [0.0, 0.0], &FORMAT);
+    assert!(draw.is_flat());
+    let counts = compare(&draw, &FORMAT);
+    assert_eq!(counts[counter::STRIP_TRIANGLES], counts[counter::PIECES]);
+    assert!(counts[counter::CUT] > 0 && counts[counter::SENT] > 0);
+}
+
+#[test]
+fn machine_counts_by_draw_and_keeps_the_map() {
+    let view = camera(DVec3::new(0.1, -1.0, 0.4), DVec3::new(0.3, 1.0, 0.0));
+    let draw = draw(&view, &ground(2), [-0.02, 0.05], &FORMAT);
+    let mut machine = Machine::new(&FORMAT, VERTEX_PLACES, BANK_WORDS);
+    let all = commands(&draw, &pyramid(), &light(&draw), VIEWPORT, false);
+    let first = run(&mut machine, &all);
+    // Without the map again.
+    let rest: Vec<Command> =
+        all.iter().filter(|c| !matches!(c, Command::Size { .. } | Command::Load { .. })).copied().collect();
+    assert_eq!(run(&mut machine, &rest), first);
+    // Nothing else is counted: 20 to 23 and those above 30 read 0.
+    for counter in (20..24).chain(31..128) {
+        let (_, reports) = run(&mut machine, &[Command::Report { counter }]);
+        assert_eq!(reports, [(counter, Some(0))]);
+    }
+}
