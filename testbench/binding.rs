@@ -3,7 +3,7 @@
 //! [`BLOCKS`]; everything else (scoreboard, co-simulation, command line, vectors) then works for it.
 
 use crate::device::Device;
-use relief_hdl::widths::WidthSet;
+use relief_hdl::widths::{WIDTH_SETS, WidthSet};
 
 /// Payload of one beat: the fields of the stream in port order, each padded to whole words, least significant first.
 pub type Beat = Vec<u64>;
@@ -43,6 +43,11 @@ pub trait Binding: Sync {
     fn interval(&self) -> &'static str;
     /// Error bound against the exact result.
     fn error(&self) -> &'static str;
+    /// Whether there is hardware at a width set; [`device`](Self::device) and the others are asked for no other.
+    fn offered(&self, set: &WidthSet) -> bool {
+        let _ = set;
+        true
+    }
     /// The hardware at a width set, reset and ready.
     fn device(&self, set: &WidthSet) -> Box<dyn Device>;
     /// The golden model at a width set.
@@ -82,6 +87,33 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::cull::CullBinding,
     &crate::clip::ClipBinding,
 ];
+
+/// Every block with each of the width sets that it is offered at.
+pub fn offers() -> impl Iterator<Item = (&'static dyn Binding, &'static WidthSet)> {
+    BLOCKS.iter().flat_map(|block| offered_sets(*block).into_iter().map(|set| (*block, set)))
+}
+
+/// The width sets that a block is offered at, in their order.
+pub fn offered_sets(block: &dyn Binding) -> Vec<&'static WidthSet> {
+    WIDTH_SETS.iter().filter(|set| block.offered(set)).collect()
+}
+
+/// Refuses a width set that a block is not offered at.
+///
+/// # Errors
+/// A sentence that names the sets that have it.
+pub fn expect_offered(block: &dyn Binding, set: &WidthSet) -> Result<(), String> {
+    if block.offered(set) {
+        return Ok(());
+    }
+    let names: Vec<&str> = offered_sets(block).iter().map(|set| set.name).collect();
+    let have = match &names[..] {
+        [] => "no width set has it".to_owned(),
+        [one] => format!("the width set {one} has it"),
+        [all @ .., last] => format!("the width sets {} and {last} have it", all.join(", ")),
+    };
+    Err(format!("{} is not offered at {}; {have}", block.name(), set.name))
+}
 
 /// The block of a name.
 pub fn find(name: &str) -> Option<&'static dyn Binding> {

@@ -27,6 +27,7 @@ pub mod cosim;
 pub mod cull;
 pub mod device;
 pub mod displace;
+pub mod displacement_pipeline;
 pub mod face_normal;
 pub mod filter_level;
 pub mod frame;
