@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `relief blocks`, `check`, `sim` and `emit` as a program, and what they write as other tools see it.
 
-use relief_hdl::widths::{WIDTH_SETS, WidthSet};
-use relief_testbench::binding::{BLOCKS, Binding};
+use relief_hdl::widths::WIDTH_SETS;
+use relief_testbench::binding::{BLOCKS, offers};
 use relief_testbench::check::emitted;
 use relief_testbench::cosim::{iverilog_accepts, tools, verilator_lint, yosys_synth_ecp5};
 use relief_testbench::stimulus::parse_stimulus;
@@ -587,24 +587,22 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
     Ok(())
 }
 
-fn everything() -> impl Iterator<Item = (&'static dyn Binding, &'static WidthSet)> {
-    BLOCKS.iter().flat_map(|block| WIDTH_SETS.iter().map(|set| (*block, set)))
-}
-
 #[test]
 fn cli_emitted_blocks_are_clean_at_every_width_set() -> Outcome {
     if !tools::require_all(&["verilator", "iverilog"], "lint of the emitted blocks")? {
         return Ok(());
     }
     let mut linted = 0;
-    for (block, set) in everything() {
+    for (block, set) in offers() {
         let emitted = emitted(block, set, None)?;
         let verilator = verilator_lint(&emitted.design, &[])?;
         let icarus = iverilog_accepts(&emitted.design)?;
         assert!(verilator.is_empty() && icarus.is_empty(), "{} {}: {verilator:?} {icarus:?}", block.name(), set.name);
         linted += 1;
     }
-    assert_eq!(linted, BLOCKS.len() * WIDTH_SETS.len());
+    // Every block at the sets with nine components at least.
+    assert!(linted >= BLOCKS.len() * WIDTH_SETS.iter().filter(|set| set.components >= 9).count());
+    assert_eq!(linted, offers().count());
     Ok(())
 }
 

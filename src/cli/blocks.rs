@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::io::stdout;
 
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
-use relief_testbench::binding::{BLOCKS, Binding};
+use relief_testbench::binding::{BLOCKS, Binding, offered_sets};
 use serde::Serialize;
 
 use super::{Outcome, Result, write_all};
@@ -64,8 +64,13 @@ pub fn run(arguments: &Arguments) -> Result {
         writeln!(text, "    interval  {}", block.interval())?;
         writeln!(text, "    error     {}", block.error())?;
         writeln!(text, "    stimulus  {}", block.stimulus_format())?;
+        let sets = offered_sets(*block);
+        if sets.len() < WIDTH_SETS.len() {
+            let names: Vec<&str> = sets.iter().map(|set| set.name).collect();
+            writeln!(text, "    width sets  {}", names.join(", "))?;
+        }
     }
-    writeln!(text, "width sets (of every block; W is the bits of an accumulator)")?;
+    writeln!(text, "width sets (of every block that names no others; W is the bits of an accumulator)")?;
     for set in WIDTH_SETS {
         let WidthSet { name, summary, components, vertex_bits, guard_bits, coordinate_bits, column_depth, .. } = set;
         let bits = set.accumulator_bits();
@@ -107,6 +112,6 @@ fn json(block: &dyn Binding) -> Block {
         interval: block.interval(),
         error: block.error(),
         stimulus: block.stimulus_format(),
-        width_sets: WIDTH_SETS.iter().map(set).collect(),
+        width_sets: offered_sets(block).into_iter().map(set).collect(),
     }
 }

@@ -58,6 +58,9 @@ pub fn run(arguments: &Arguments) -> Result {
         false => arguments.param.iter().map(|name| Some(name.as_str())).collect(),
     };
     let sets = names.into_iter().map(select::width_set).collect::<std::result::Result<Vec<_>, _>>()?;
+    for set in &sets {
+        select::offered(&blocks, &arguments.blocks, set)?;
+    }
     let engines = select::engines(&arguments.engine)?;
     if arguments.sources.is_some() && (blocks.len() != 1 || sets.len() != 1) {
         return Err("--sources names the folder of one design, so it takes one block and one --param".into());
@@ -83,7 +86,7 @@ pub fn run(arguments: &Arguments) -> Result {
     write_all(stdout(), &head)?;
     let (mut reports, mut timings) = (Vec::new(), String::new());
     for block in &blocks {
-        for set in &sets {
+        for set in sets.iter().filter(|set| block.offered(set)) {
             let meter = Meter::new();
             let mut plan = Check::new(*block, set);
             plan.engines.clone_from(&engines.run);

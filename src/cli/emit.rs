@@ -50,6 +50,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result {
     let blocks = select::blocks(&arguments.blocks)?;
     let set = select::width_set(arguments.param.as_deref())?;
+    let blocks = select::offered(&blocks, &arguments.blocks, set)?;
     fs::create_dir_all(&arguments.out)
         .map_err(|error| format!("{}: the folder cannot be made: {error}", arguments.out.display()))?;
     let meter = Meter::new();

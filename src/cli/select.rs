@@ -2,7 +2,7 @@
 //! Finds blocks, width sets and engines by the names that the command line gives.
 
 use relief_hdl::widths::{WIDTH_SETS, WidthSet};
-use relief_testbench::binding::{BLOCKS, Binding, find};
+use relief_testbench::binding::{BLOCKS, Binding, expect_offered, find};
 use relief_testbench::check::Engine;
 use relief_testbench::cosim::tools;
 
@@ -25,6 +25,18 @@ pub fn blocks(names: &[String]) -> Result<Vec<&'static dyn Binding>, String> {
         }
     }
     Ok(blocks)
+}
+
+/// Those of the blocks that a width set offers. Blocks that were named must be offered, others are left out.
+pub fn offered(
+    blocks: &[&'static dyn Binding],
+    names: &[String],
+    set: &WidthSet,
+) -> Result<Vec<&'static dyn Binding>, String> {
+    if !names.is_empty() {
+        blocks.iter().try_for_each(|block| expect_offered(*block, set))?;
+    }
+    Ok(blocks.iter().copied().filter(|block| block.offered(set)).collect())
 }
 
 /// A width set by its name; the default one for none.

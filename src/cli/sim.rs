@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use relief_hdl::verilog::PortInfo;
 use relief_hdl::widths::WidthSet;
 use relief_models::mesh::Progress;
-use relief_testbench::binding::Binding;
+use relief_testbench::binding::{Binding, expect_offered};
 use relief_testbench::check::{Engine, Followers, Play, Recording, Simulators, emission, emitted, play};
 use relief_testbench::cosim::{Design, Dump, PowerUp};
 use relief_testbench::device::Layout;
@@ -87,6 +87,7 @@ fn window(text: &str) -> std::result::Result<Range<u64>, String> {
 pub fn run(arguments: &Arguments) -> Result {
     let block = select::block(&arguments.block)?;
     let set = select::width_set(arguments.param.as_deref())?;
+    expect_offered(block, set)?;
     let (engine, window) = (arguments.engine, &arguments.cycles);
     if let Some(missing) = engine.missing() {
         return Err(missing.into());

@@ -59,6 +59,9 @@ pub fn run(arguments: &Arguments) -> Result {
     let targets = targets.iter().map(|name| target::find(name)).collect::<std::result::Result<Vec<_>, _>>()?;
     let sets = named(&arguments.param, &["default"], &["default", "small"]);
     let sets = sets.iter().map(|name| select::width_set(Some(name))).collect::<std::result::Result<Vec<_>, _>>()?;
+    for set in &sets {
+        select::offered(&blocks, &arguments.blocks, set)?;
+    }
     // The programs are looked for before the work.
     let routed =
         |target: &Target| arguments.pnr || arguments.figures && arguments.target.is_empty() && target.route.is_ok();
@@ -70,14 +73,15 @@ pub fn run(arguments: &Arguments) -> Result {
         // What cannot be written later is refused now; the same figures are the same bytes.
         figures.write(project)?;
     }
+    let pairs: usize = sets.iter().map(|set| blocks.iter().filter(|block| block.offered(set)).count()).sum();
     let meter = Meter::new();
-    meter.phase("synthesizing", (blocks.len() * sets.len() * targets.len()) as u64);
+    meter.phase("synthesizing", (pairs * targets.len()) as u64);
     let (mut rows, mut done): (Vec<Row>, _) = (Vec::new(), 0);
     if !arguments.json {
         write_all(stdout(), &head())?;
     }
     for block in blocks {
-        for set in &sets {
+        for set in sets.iter().filter(|set| block.offered(set)) {
             let bench = Bench::new(block, set)?;
             for (target, tools) in targets.iter().zip(&tools) {
                 let row = bench.measure(target, tools, arguments.seeds);

@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use relief_hdl::verilog::{Direction, Emission};
 use relief_hdl::widths::WidthSet;
-use relief_testbench::binding::{BLOCKS, Binding};
+use relief_testbench::binding::{BLOCKS, Binding, expect_offered};
 use relief_testbench::check::emission;
 use relief_testbench::cosim::{program, tools};
 
@@ -103,7 +103,11 @@ impl<'a> Proof<'a> {
         let name = contract.name;
         let mut emission = match contract.part {
             Some(part) => (part.emit)().map_err(|error| error.to_string())?,
-            None => emission(block(name)?, set).map_err(|error| error.to_string())?,
+            None => {
+                let block = block(name)?;
+                expect_offered(block, set)?;
+                emission(block, set).map_err(|error| error.to_string())?
+            }
         };
         for change in contract.faults.iter().filter(|change| Some(change.property) == fault) {
             change.apply(&mut emission).map_err(|reason| format!("the fault of {name}: {reason}"))?;
