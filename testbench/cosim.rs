@@ -6,6 +6,7 @@
 //! | [`design`]    | the sources, the ports and where each port lies in the words of a cycle         |
 //! | [`cycles`]    | the words of many cycles, and what differs between two of them                  |
 //! | [`verilator`] | a compiled simulator behind a pipe: batches, or a cycle at a time               |
+//! | [`stream`]    | the same beside its driver: beats in, beats out                                        |
 //! | [`icarus`]    | an interpreted simulator that knows unknown bits: batches                       |
 //! | [`lint`]      | what Verilator and Icarus say of the sources                                    |
 //! | [`synthesis`] | the cells that Yosys maps the design to                                         |
@@ -26,6 +27,7 @@ pub mod design;
 pub mod icarus;
 pub mod lint;
 pub mod program;
+pub mod stream;
 pub mod synthesis;
 pub mod tools;
 pub mod verilator;
@@ -34,6 +36,7 @@ pub use cycles::{Cycles, Difference, Response, first_difference};
 pub use design::{Design, Direction, Port, Slot};
 pub use icarus::{Icarus, IcarusModel};
 pub use lint::{LintMessage, Severity, Waiver, iverilog_accepts, verilator_lint};
+pub use stream::{Stream, Streamed};
 pub use synthesis::{CellReport, count_cells, yosys_synth_ecp5};
 pub use verilator::{Dump, PowerUp, Session, Verilator, VerilatorModel};
 

@@ -9,9 +9,14 @@
 //! hardware      face_normal -> light -> (golden: rasteriser)
 //! ```
 
+mod design;
 mod mesh;
 mod prepare;
 
+pub use design::{
+    CulledReport, DesignError, DesignReport, DrawReport, DroppedReport, NoPlaceReport, TimesReport, commands_of,
+    expect_drawable, render_by_design,
+};
 pub use prepare::{MOST_TRIANGLES, Prepared, prepare, width_set};
 
 use crate::pipeline::{self, Pipeline, PipelineError, PipelineRecording};

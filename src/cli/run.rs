@@ -6,11 +6,15 @@ use std::io::{stderr, stdout};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use relief_hdl::widths::WidthSet;
 use relief_models::mesh::Progress;
 use relief_models::scene;
 use relief_testbench::binding::find;
 use relief_testbench::check::{self, emission};
-use relief_testbench::frame::{Report, prepare, render, width_set};
+use relief_testbench::frame::{
+    CulledReport, DesignError, DesignReport, DrawReport, Prepared, Report, expect_drawable, prepare, render,
+    render_by_design, width_set,
+};
 use relief_testbench::output::{MadeFolder, OutputFile, OutputFolder};
 use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
 
@@ -45,6 +49,8 @@ enum Engine {
     Rust,
     /// In Rust, and their Verilog in Verilator behind them, compared cycle by cycle
     Verilator,
+    /// The datapath as one design, its Verilog in Verilator alone, compared beat by beat; writes frame.png and report.json
+    Design,
     /// Verilator where it is installed, otherwise Rust
     Auto,
 }
@@ -61,6 +67,9 @@ pub fn run(arguments: &Arguments) -> Result {
         Some(name) => select::width_set(Some(name))?,
         None => width_set(&scene),
     };
+    if arguments.engine == Engine::Design {
+        expect_drawable(&scene, set).map_err(|error| format!("{}: {error}", arguments.scene.display()))?;
+    }
     let prepared = prepare(&scene, set)?;
     let mut warnings: Vec<String> = scene.warnings.iter().chain(&prepared.warnings).cloned().collect();
     for warning in &warnings {
@@ -71,8 +80,11 @@ pub fn run(arguments: &Arguments) -> Result {
         Engine::Auto => Engine::Rust,
         engine => engine,
     };
-    if let (Engine::Verilator, Some(missing)) = (engine, check::Engine::Verilator.missing()) {
+    if let (Engine::Verilator | Engine::Design, Some(missing)) = (engine, check::Engine::Verilator.missing()) {
         return Err(missing.into());
+    }
+    if engine == Engine::Design {
+        return design(arguments, &prepared, set, warnings, begun);
     }
     // Every output is opened before the work. Folders that turn out to be made for nothing go last.
     let out = &arguments.out;
@@ -132,6 +144,82 @@ pub fn run(arguments: &Arguments) -> Result {
     }
     write_all(stdout(), &table(&rendered.report, begun.elapsed().as_secs_f64(), out))?;
     Ok(Outcome::Agreed)
+}
+
+/// The scene through the emitted design.
+fn design(
+    arguments: &Arguments,
+    prepared: &Prepared<'_>,
+    set: &'static WidthSet,
+    warnings: Vec<String>,
+    begun: Instant,
+) -> Result {
+    let out = &arguments.out;
+    let _made = MadeFolder::open(out)?;
+    let files = [OutputFile::open(&out.join("frame.png"))?, OutputFile::open(&out.join("report.json"))?];
+    let meter = Meter::new();
+    let rendered = render_by_design(prepared, set, &meter);
+    meter.finish();
+    let (frame, mut report) = match rendered {
+        Ok(rendered) => rendered,
+        Err(error) if error.is_mismatch() => {
+            write_all(stderr(), &format!("mismatch: {error}; nothing was written\n"))?;
+            return Ok(Outcome::Mismatch);
+        }
+        Err(DesignError::Refused(what)) => return Err(format!("{}: {what}", arguments.scene.display()).into()),
+        Err(error) => return Err(error.into()),
+    };
+    report.scene = arguments.scene.display().to_string();
+    report.warnings = warnings;
+    report.seconds = begun.elapsed().as_secs_f64();
+    let json = serde_json::to_string_pretty(&report)? + "\n";
+    for (mut file, content) in files.into_iter().zip([frame.png()?, json.into_bytes()]) {
+        std::io::Write::write_all(&mut file, &content)?;
+        file.commit()?;
+    }
+    write_all(stdout(), &design_table(&report, begun.elapsed().as_secs_f64(), out))?;
+    Ok(Outcome::Agreed)
+}
+
+fn design_table(report: &DesignReport, seconds: f64, out: &Path) -> String {
+    let mut text = String::new();
+    let mut row = |name: &str, value: String| {
+        let _ = writeln!(text, "{name:26} {value}");
+    };
+    let sum = |count: fn(&DrawReport) -> u32| report.objects.iter().map(|object| u64::from(count(object))).sum::<u64>();
+    let culled = sum(|object| {
+        let CulledReport { left, right, top, bottom, near, far } = object.culled;
+        left + right + top + bottom + near + far
+    });
+    let dropped = sum(|object| object.dropped.near + object.dropped.lane + object.dropped.grid);
+    let (bases, cut) = (sum(|object| object.base_triangles), sum(|object| object.cut));
+    row("base triangles", format!("{bases} ({culled} culled, {cut} cut, {dropped} dropped)"));
+    let no_place = sum(|object| object.no_place.invalid + object.no_place.near + object.no_place.range);
+    let off = sum(|object| object.off_screen);
+    row("triangles", format!("{} ({no_place} without a place and {off} off the screen left out)", report.triangles));
+    row("vertices displaced", sum(|object| object.vertices).to_string());
+    row("cycles", format!("{} for {} commands", report.cycles, report.commands));
+    let busy = sum(|object| object.times.busy);
+    let two = if report.triangles == 0 { 0.0 } else { 2.0 * busy as f64 / report.triangles as f64 };
+    row("  of them drawing", format!("{busy} ({two:.3} for two triangles)"));
+    for (name, count) in [
+        ("  piece for remesher", sum(|object| object.times.piece_waits)),
+        ("  no step", sum(|object| object.times.no_step)),
+        ("  step for room", sum(|object| object.times.step_waits)),
+        ("  step for second vertex", sum(|object| object.times.second_vertex_waits)),
+        ("  strip unit", sum(|object| object.times.strip_waits)),
+        ("  receiver", sum(|object| object.times.receiver_waits)),
+    ] {
+        row(name, format!("{count} waited"));
+    }
+    row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
+    row("width set", report.width_set.to_owned());
+    row("hardware", format!("displacement_pipeline in Verilator, {} beats equal golden", report.beats));
+    row("golden models", "levels of the maps, raster".to_owned());
+    row("mismatches", report.mismatches.to_string());
+    row("time", format!("{seconds:.1} s ({:.1} s simulating)", report.simulation_seconds));
+    row("written to", out.display().to_string());
+    text
 }
 
 /// What only the work could tell.

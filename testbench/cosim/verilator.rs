@@ -109,10 +109,16 @@ impl Verilator {
 
     /// Builds the design, or finds it built.
     pub fn build(&self, design: &Design) -> Result<VerilatorModel, CosimError> {
+        let (executable, was_cached) = self.built(design, HARNESS)?;
+        Ok(VerilatorModel { design: design.clone(), executable, traced: self.traced, was_cached })
+    }
+
+    /// The program of a design and a C++ main for its ports, and whether it had been built before.
+    pub(super) fn built(&self, design: &Design, main: &str) -> Result<(PathBuf, bool), CosimError> {
         design.check()?;
         let verilator = tools::find("verilator")?.version;
         let compiler = tools::find("g++")?.version;
-        let harness = harness(design);
+        let harness = harness(design, main);
         let mut key = Fingerprint::default();
         for text in [&verilator, &compiler, &harness, &design.top] {
             key.add(text.as_bytes());
@@ -132,7 +138,7 @@ impl Verilator {
                 self.compile(design, &sources, &harness, &format!("{verilator}\n{compiler}"), folder)
             })?;
         }
-        Ok(VerilatorModel { design: design.clone(), executable, traced: self.traced, was_cached })
+        Ok((executable, was_cached))
     }
 
     /// Makes a file that does not exist yet, in a folder that vanishes; `make` returns where in it the file lies.
@@ -262,8 +268,8 @@ fn make_variable(text: &str, name: &str) -> Vec<String> {
         .collect()
 }
 
-/// The C++ main for the ports of a design.
-fn harness(design: &Design) -> String {
+/// A C++ main for the ports of a design.
+fn harness(design: &Design, main: &str) -> String {
     let (mut set, mut get) = (String::new(), String::new());
     for (port, slot) in design.slots(Direction::Input) {
         let (name, word) = (mangled(&port.name), slot.word);
@@ -291,8 +297,7 @@ fn harness(design: &Design) -> String {
     }
     let clock =
         |level: u8| design.clock.as_ref().map_or(String::new(), |name| format!("dut.{} = {level};", mangled(name)));
-    HARNESS
-        .replace("@IN@", &design.input_words().to_string())
+    main.replace("@IN@", &design.input_words().to_string())
         .replace("@OUT@", &design.output_words().to_string())
         .replace("@SET@", &set)
         .replace("@GET@", &get)
@@ -523,7 +528,7 @@ impl Drop for Session {
     }
 }
 
-fn send(stdin: &mut ChildStdin, words: &[u64]) -> io::Result<()> {
+pub(super) fn send(stdin: &mut ChildStdin, words: &[u64]) -> io::Result<()> {
     let mut bytes = Vec::with_capacity(words.len().min(CHUNK / 8) * 8);
     for chunk in words.chunks(CHUNK / 8) {
         bytes.clear();
@@ -550,6 +555,22 @@ fn receive(stdout: &mut ChildStdout, wanted: usize, words: &mut Vec<u64>) -> io:
         have -= whole;
     }
     Ok(())
+}
+
+/// All words until the other side ends.
+pub(super) fn receive_all(from: &mut dyn Read) -> io::Result<Vec<u64>> {
+    let (mut words, mut bytes, mut have) = (Vec::new(), vec![0; CHUNK], 0);
+    loop {
+        let got = from.read(&mut bytes[have..])?;
+        if got == 0 {
+            return Ok(words);
+        }
+        have += got;
+        let whole = have / 8 * 8;
+        words.extend(bytes[..whole].chunks_exact(8).map(word_of));
+        bytes.copy_within(whole..have, 0);
+        have -= whole;
+    }
 }
 
 fn word_of(bytes: &[u8]) -> u64 {
