@@ -86,6 +86,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::vertex_transform::VertexTransformBinding,
     &crate::cull::CullBinding,
     &crate::clip::ClipBinding,
+    &crate::displacement_pipeline::DisplacementPipelineBinding,
 ];
 
 /// Every block with each of the width sets that it is offered at.

@@ -6,9 +6,10 @@ mod draws;
 use crate::binding::{Beat, Binding, Expected, Model, pack, unpack};
 use crate::device::Device;
 use crate::perspective_correct::fit_ranges;
+use crate::stepped::Stepped;
 use crate::vertex_adder::expect_count;
 use crate::{remesher, vertex_transform};
-use relief_hdl::widths::WidthSet;
+use relief_hdl::widths::{self, WidthSet};
 use relief_models::displace::displaced;
 use relief_models::displacement_pipeline::{Command, Machine, Sent, VERTEX_PLACES, numbers};
 use relief_models::mip_build::Wrap;
@@ -252,12 +253,18 @@ impl Binding for DisplacementPipelineBinding {
         "that of its blocks"
     }
     fn offered(&self, set: &WidthSet) -> bool {
-        // All lanes go through the remesher.
-        set.components >= LANES
+        // All nine lanes go through the remesher, and no others.
+        set.components == LANES
     }
-    fn device(&self, _set: &WidthSet) -> Box<dyn Device> {
-        // MERGE: the block of hdl/displacement_pipeline.rs stands here.
-        unimplemented!("hdl/displacement_pipeline.rs")
+    fn device(&self, set: &WidthSet) -> Box<dyn Device> {
+        let depth = set.column_depth;
+        // The sets that it is offered at, and no other types.
+        match set.name {
+            "default" => Box::new(Stepped::new(widths::default::DisplacementPipeline::new(depth))),
+            "large" => Box::new(Stepped::new(widths::large::DisplacementPipeline::new(depth))),
+            "small" => Box::new(Stepped::new(widths::small::DisplacementPipeline::new(depth))),
+            name => unreachable!("displacement_pipeline is not offered at {name}"),
+        }
     }
     fn model(&self, set: &WidthSet) -> Box<dyn Model> {
         Box::new(Golden(machine(set)))
