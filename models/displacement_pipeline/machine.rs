@@ -65,6 +65,7 @@ pub enum Command {
 
 /// What the design sends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[allow(clippy::large_enum_variant)] // Nearly all of them are triangles.
 pub enum Sent {
     /// A triangle with a place.
     Triangle {
