@@ -113,7 +113,7 @@ macro_rules! width_sets {
                 pub type Remesher = crate::remesher::Remesher<
                     $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,
                 >;
-                /// The whole datapath, for sets of nine components or more; of them it carries nine.
+                /// The whole datapath, offered at sets of nine components.
                 pub type DisplacementPipeline = crate::displacement_pipeline::DisplacementPipeline<
                     $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,
                     { $m + 1 }, { $t - 2 },
