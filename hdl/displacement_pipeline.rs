@@ -98,6 +98,15 @@ pub struct DisplacementPipeline<
     strip_unit: Gated<StripUnit<3, 34, K>>,
     shading: Gated<Shading>,
     counters: Gated<Counters>,
+    // What stands at the output.
+    sent: Register<Bit>,
+    sent_report: DataRegister<Bit>,
+    sent_value: DataRegister<U<32>>,
+    sent_x: DataRegister<Lanes<3, 22>>,
+    sent_y: DataRegister<Lanes<3, 22>>,
+    sent_c: DataRegister<Lanes<3, 32>>,
+    sent_height: DataRegister<Lanes<3, 25>>,
+    sent_colour: DataRegister<U<24>>,
     /// Pieces between assembly and shading.
     pieces: Register<U<8>>,
     /// The counter is read, and is there.
@@ -115,6 +124,7 @@ pub struct DisplacementPipeline<
     is_triangle: Wire<Bit>,
     is_report: Wire<Bit>,
     ours: Wire<Bit>,
+    out_free: Wire<Bit>,
     piece_goes: Wire<Bit>,
     ends: Wire<Bit>,
     step_goes: Wire<Bit>,
@@ -172,6 +182,14 @@ impl<
             strip_unit: Gated::new(StripUnit::new(depth)),
             shading: Gated::default(),
             counters: Gated::default(),
+            sent: Register::default(),
+            sent_report: DataRegister::default(),
+            sent_value: DataRegister::default(),
+            sent_x: DataRegister::default(),
+            sent_y: DataRegister::default(),
+            sent_c: DataRegister::default(),
+            sent_height: DataRegister::default(),
+            sent_colour: DataRegister::default(),
             pieces: Register::default(),
             reads: Register::default(),
             reports: Register::default(),
@@ -186,6 +204,7 @@ impl<
             is_triangle: Wire::default(),
             is_report: Wire::default(),
             ours: Wire::default(),
+            out_free: Wire::default(),
             piece_goes: Wire::default(),
             ends: Wire::default(),
             step_goes: Wire::default(),
@@ -220,6 +239,7 @@ impl<
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
+        dff_setup!(self, clock, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour);
         dff_setup!(self, clock, pieces, reads, reports, clears, report_index, rested);
 
         // Commands
@@ -373,34 +393,45 @@ impl<
         self.shading.shine.next = self.constants.shine.val();
         self.shading.direction.next = self.constants.direction.val();
         self.shading.colour.next = self.constants.colour.val();
-        self.shading.out_ready.next = self.out_ready.val();
+        self.out_free.next = !self.sent.q.val() || self.out_ready.val();
+        self.shading.out_ready.next = self.out_free.val() && !self.reports.q.val();
 
         // What leaves: a report is alone.
         self.reads.d.next = self.in_valid.val() && self.in_ready.val() && self.is_report.val();
-        if self.in_valid.val() && self.in_ready.val() {
+        if self.is_report.val() && self.in_ready.val() {
             self.report_index.d.next = self.in_index.val();
         }
         if self.reads.q.val() {
             self.reports.d.next = true;
-        } else if self.out_ready.val() {
+        } else if self.out_free.val() {
             self.reports.d.next = false;
         }
-        self.out_valid.next = self.shading.out_valid.val() || self.reports.q.val();
-        self.out_report.next = self.reports.q.val();
-        self.out_value.next = 0.into();
-        self.out_x.next = self.shading.out_x.val();
-        self.out_y.next = self.shading.out_y.val();
-        self.out_c.next = self.shading.out_c.val();
-        self.out_height.next = self.shading.out_height.val();
-        self.out_colour.next = self.shading.out_colour.val();
-        if self.reports.q.val() {
-            self.out_value.next = self.counters.value.val();
-            self.out_x.next = self.no_x.val();
-            self.out_y.next = self.no_x.val();
-            self.out_c.next = self.no_c.val();
-            self.out_height.next = self.no_height.val();
-            self.out_colour.next = 0.into();
+        if self.out_free.val() {
+            self.sent.d.next = self.shading.out_valid.val() || self.reports.q.val();
+            self.sent_report.d.next = self.reports.q.val();
+            self.sent_value.d.next = 0.into();
+            self.sent_x.d.next = self.shading.out_x.val();
+            self.sent_y.d.next = self.shading.out_y.val();
+            self.sent_c.d.next = self.shading.out_c.val();
+            self.sent_height.d.next = self.shading.out_height.val();
+            self.sent_colour.d.next = self.shading.out_colour.val();
+            if self.reports.q.val() {
+                self.sent_value.d.next = self.counters.value.val();
+                self.sent_x.d.next = self.no_x.val();
+                self.sent_y.d.next = self.no_x.val();
+                self.sent_c.d.next = self.no_c.val();
+                self.sent_height.d.next = self.no_height.val();
+                self.sent_colour.d.next = 0.into();
+            }
         }
+        self.out_valid.next = self.sent.q.val();
+        self.out_report.next = self.sent_report.q.val();
+        self.out_value.next = self.sent_value.q.val();
+        self.out_x.next = self.sent_x.q.val();
+        self.out_y.next = self.sent_y.q.val();
+        self.out_c.next = self.sent_c.q.val();
+        self.out_height.next = self.sent_height.q.val();
+        self.out_colour.next = self.sent_colour.q.val();
         self.error.next = self.vertices.error.val() || self.strip_unit.error.val();
 
         // Pieces on their way
@@ -416,6 +447,7 @@ impl<
         // Counters
         self.counters.clear.next = self.clears.q.val();
         self.counters.index.next = self.report_index.q.val();
+        self.counters.read.next = self.reads.q.val();
         self.culled.next = self.assembly.reason.val();
         self.step_goes.next = self.vertices.in_valid.val() && self.vertices.in_ready.val();
         self.counters.bases.next = self.in_valid.val() && self.in_ready.val() && self.is_triangle.val();
@@ -437,14 +469,14 @@ impl<
         self.counters.too_near.next = self.shading.near.val();
         self.counters.beyond.next = self.shading.range.val();
         self.counters.off.next = self.shading.off.val();
-        self.counters.sent.next = self.shading.out_valid.val() && self.out_ready.val();
+        self.counters.sent.next = self.shading.out_valid.val() && self.shading.out_ready.val();
         self.counters.cycles.next = !self.idle.val();
         self.counters.piece_waits.next = self.assembly.piece_valid.val() && !self.assembly.piece_ready.val();
         self.counters.silent.next = self.pieces.q.val().any() && !self.vertices.in_valid.val();
         self.counters.lacks_room.next = self.vertices.lacks_room.val();
         self.counters.sends_second.next = self.vertices.sends_second.val();
         self.counters.strip_waits.next = self.strip_unit.out_valid.val() && !self.shading.in_ready.val();
-        self.counters.out_waits.next = self.shading.out_valid.val() && !self.out_ready.val();
+        self.counters.out_waits.next = self.sent.q.val() && !self.out_ready.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -457,6 +489,6 @@ ports! {
         inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
         outputs: in_ready, out_valid, out_report, out_value, out_x, out_y, out_c, out_height, out_colour, error;
         blocks: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters;
-        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, pieces, reads, reports, clears, report_index, rested
+        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, report_index, rested
     }
 }

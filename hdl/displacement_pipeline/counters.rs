@@ -4,7 +4,8 @@
 //! | port  | meaning |   Golden: models::displacement_pipeline::Machine, but for the cycles
 //! | clear | all counters become 0
 //! | index | the counter that is read: 0 .. 19 of what came, 24 .. 30 of cycles; the others are 0
-//! | value | it, a cycle later
+//! | read  | it becomes the value, which stays
+//! | value | a cycle later
 //! | others | one more of them
 
 use crate::prelude::*;
@@ -46,6 +47,7 @@ pub struct Counters {
     pub clock: Input<ClockReset>,
     pub clear: Input<Bit>,
     pub index: Input<U<7>>,
+    pub read: Input<Bit>,
     pub value: Output<U<32>>,
     pub bases: Input<Bit>,
     pub left: Input<Bit>,
@@ -101,7 +103,8 @@ pub struct Counters {
     sends_second_count: Counter,
     strip_waits_count: Counter,
     out_waits_count: Counter,
-    chosen: Register<U<32>>,
+    held: Register<U<32>>,
+    chosen: Wire<U<32>>,
 }
 
 impl Logic for Counters {
@@ -140,8 +143,8 @@ impl Logic for Counters {
             strip_waits_count,
             out_waits_count
         );
-        dff_setup!(self, clock, chosen);
-        self.value.next = self.chosen.q.val();
+        dff_setup!(self, clock, held);
+        self.value.next = self.held.q.val();
         self.bases_count.clear.next = self.clear.val();
         self.bases_count.adds.next = self.bases.val();
         self.left_count.clear.next = self.clear.val();
@@ -196,61 +199,64 @@ impl Logic for Counters {
         self.strip_waits_count.adds.next = self.strip_waits.val();
         self.out_waits_count.clear.next = self.clear.val();
         self.out_waits_count.adds.next = self.out_waits.val();
-        self.chosen.d.next = 0.into();
+        self.chosen.next = 0.into();
         if self.index.val() == 0 {
-            self.chosen.d.next = self.bases_count.count.val();
+            self.chosen.next = self.bases_count.count.val();
         } else if self.index.val() == 1 {
-            self.chosen.d.next = self.left_count.count.val();
+            self.chosen.next = self.left_count.count.val();
         } else if self.index.val() == 2 {
-            self.chosen.d.next = self.right_count.count.val();
+            self.chosen.next = self.right_count.count.val();
         } else if self.index.val() == 3 {
-            self.chosen.d.next = self.top_count.count.val();
+            self.chosen.next = self.top_count.count.val();
         } else if self.index.val() == 4 {
-            self.chosen.d.next = self.bottom_count.count.val();
+            self.chosen.next = self.bottom_count.count.val();
         } else if self.index.val() == 5 {
-            self.chosen.d.next = self.near_side_count.count.val();
+            self.chosen.next = self.near_side_count.count.val();
         } else if self.index.val() == 6 {
-            self.chosen.d.next = self.far_side_count.count.val();
+            self.chosen.next = self.far_side_count.count.val();
         } else if self.index.val() == 7 {
-            self.chosen.d.next = self.cut_count.count.val();
+            self.chosen.next = self.cut_count.count.val();
         } else if self.index.val() == 8 {
-            self.chosen.d.next = self.near_count.count.val();
+            self.chosen.next = self.near_count.count.val();
         } else if self.index.val() == 9 {
-            self.chosen.d.next = self.lane_count.count.val();
+            self.chosen.next = self.lane_count.count.val();
         } else if self.index.val() == 10 {
-            self.chosen.d.next = self.grid_count.count.val();
+            self.chosen.next = self.grid_count.count.val();
         } else if self.index.val() == 11 {
-            self.chosen.d.next = self.pieces_count.count.val();
+            self.chosen.next = self.pieces_count.count.val();
         } else if self.index.val() == 12 {
-            self.chosen.d.next = self.steps_count.count.val();
+            self.chosen.next = self.steps_count.count.val();
         } else if self.index.val() == 13 {
-            self.chosen.d.next = self.vertices_count.count.val();
+            self.chosen.next = self.vertices_count.count.val();
         } else if self.index.val() == 14 {
-            self.chosen.d.next = self.triangles_count.count.val();
+            self.chosen.next = self.triangles_count.count.val();
         } else if self.index.val() == 15 {
-            self.chosen.d.next = self.invalid_count.count.val();
+            self.chosen.next = self.invalid_count.count.val();
         } else if self.index.val() == 16 {
-            self.chosen.d.next = self.too_near_count.count.val();
+            self.chosen.next = self.too_near_count.count.val();
         } else if self.index.val() == 17 {
-            self.chosen.d.next = self.beyond_count.count.val();
+            self.chosen.next = self.beyond_count.count.val();
         } else if self.index.val() == 18 {
-            self.chosen.d.next = self.off_count.count.val();
+            self.chosen.next = self.off_count.count.val();
         } else if self.index.val() == 19 {
-            self.chosen.d.next = self.sent_count.count.val();
+            self.chosen.next = self.sent_count.count.val();
         } else if self.index.val() == 24 {
-            self.chosen.d.next = self.cycles_count.count.val();
+            self.chosen.next = self.cycles_count.count.val();
         } else if self.index.val() == 25 {
-            self.chosen.d.next = self.piece_waits_count.count.val();
+            self.chosen.next = self.piece_waits_count.count.val();
         } else if self.index.val() == 26 {
-            self.chosen.d.next = self.silent_count.count.val();
+            self.chosen.next = self.silent_count.count.val();
         } else if self.index.val() == 27 {
-            self.chosen.d.next = self.lacks_room_count.count.val();
+            self.chosen.next = self.lacks_room_count.count.val();
         } else if self.index.val() == 28 {
-            self.chosen.d.next = self.sends_second_count.count.val();
+            self.chosen.next = self.sends_second_count.count.val();
         } else if self.index.val() == 29 {
-            self.chosen.d.next = self.strip_waits_count.count.val();
+            self.chosen.next = self.strip_waits_count.count.val();
         } else if self.index.val() == 30 {
-            self.chosen.d.next = self.out_waits_count.count.val();
+            self.chosen.next = self.out_waits_count.count.val();
+        }
+        if self.read.val() {
+            self.held.d.next = self.chosen.val();
         }
     }
 
@@ -259,4 +265,4 @@ impl Logic for Counters {
     }
 }
 
-watched! { [] Counters: clear, index, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, invalid, too_near, beyond, off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, chosen }
+watched! { [] Counters: clear, index, read, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, invalid, too_near, beyond, off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, held }

@@ -283,8 +283,10 @@ fn passed() -> Verdict {
 
 /// One reading and flattening, and a file a property.
 fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String {
+    let loose: String =
+        contract.loose.iter().map(|name| format!("cutpoint relief_{}/{name}\n", contract.name)).collect();
     let mut text = format!(
-        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\nproc\nflatten\n",
+        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\nproc\n{loose}flatten\n",
         sources.join(" ")
     );
     // All that the outputs follow within a cycle, and `out_ready` among it. Before anything is simplified: wires would lose
