@@ -113,6 +113,8 @@ pub struct DisplacementPipeline<
     reads: Register<Bit>,
     reports: Register<Bit>,
     clears: Register<Bit>,
+    /// Constant 0 has come; triangles before it are nothing.
+    begun: Register<Bit>,
     report_index: Register<U<7>>,
     /// Everything had left a cycle before.
     rested: Register<Bit>,
@@ -194,6 +196,7 @@ impl<
             reads: Register::default(),
             reports: Register::default(),
             clears: Register::default(),
+            begun: Register::default(),
             report_index: Register::default(),
             rested: Register::default(),
             idle: Wire::default(),
@@ -240,13 +243,13 @@ impl<
     fn update(&mut self) {
         clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
         dff_setup!(self, clock, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour);
-        dff_setup!(self, clock, pieces, reads, reports, clears, report_index, rested);
+        dff_setup!(self, clock, pieces, reads, reports, clears, begun, report_index, rested);
 
         // Commands
         self.is_constant.next = self.in_kind.val() == 0;
         self.is_record.next = self.in_kind.val() == 1;
         self.is_map.next = self.in_kind.val() == 2 || self.in_kind.val() == 3;
-        self.is_triangle.next = self.in_kind.val() == 4;
+        self.is_triangle.next = self.in_kind.val() == 4 && self.begun.q.val();
         self.is_report.next = self.in_kind.val() == 5;
         self.idle.next = self.assembly.idle.val()
             && !self.pieces.q.val().any()
@@ -278,6 +281,9 @@ impl<
         self.clears.d.next =
             self.in_valid.val() && self.in_ready.val() && self.is_constant.val() && !self.in_index.val().any();
 
+        if self.clears.q.val() {
+            self.begun.d.next = true;
+        }
         self.lane_0.next = self.in_data.val().get_bit(0);
         self.lane_1.next = self.in_data.val().get_bit(1);
         self.lane_2.next = self.in_data.val().get_bit(2);
@@ -489,6 +495,6 @@ ports! {
         inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
         outputs: in_ready, out_valid, out_report, out_value, out_x, out_y, out_c, out_height, out_colour, error;
         blocks: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters;
-        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, report_index, rested
+        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, begun, report_index, rested
     }
 }

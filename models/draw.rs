@@ -531,10 +531,9 @@ impl Draw {
     }
 
     /// The constants alone, before any of them has come; the machine of a design writes them one by one.
-    pub(crate) fn blank(format: &Format, places: usize) -> Draw {
+    pub(crate) fn blank(format: &Format) -> Draw {
         let (transform, volume) = vertex_transform::numbers::RESET;
         let axis = Axis { size: 1, repeat: false, texel_bits: 1 };
-        let nothing = BaseVertex { position: [0; 3], normal: [0; 3], texel: [0; 2], density: 0 };
         Draw {
             cull: false,
             transform,
@@ -545,7 +544,7 @@ impl Draw {
             lanes: Lanes { bits: format.vertex_bits, ..Lanes::WHOLE },
             pixel: Pixel { scale: 0, shift: 16 },
             material: Material { ramp: [[0; 3]; 5], ambient: [0; 3], specular: 0, shininess: 1 },
-            records: vec![nothing; places],
+            records: Vec::new(),
             triangles: Vec::new(),
             seams_are_exact: true,
             exact_seams_near: 0.0,
@@ -561,20 +560,21 @@ impl Draw {
 
     /// Transforms, culls and cuts base triangle `index`.
     pub fn assemble(&self, index: usize) -> Assembled {
-        self.assemble_corners(self.triangles[index])
+        self.assemble_corners(&self.triangles[index].map(|vertex| self.transformed(self.records[vertex as usize])))
     }
 
-    /// Transforms, culls and cuts the base triangle of three records.
-    pub fn assemble_corners(&self, corners: [u32; 3]) -> Assembled {
-        let corners = corners.map(|v| {
-            let source = Source::Record(self.records[v as usize]);
-            vertex_transform::golden(&self.transform, &self.volume, &source)
-        });
+    /// A record, transformed.
+    pub fn transformed(&self, record: BaseVertex) -> Transformed {
+        vertex_transform::golden(&self.transform, &self.volume, &Source::Record(record))
+    }
+
+    /// Culls and cuts the base triangle of three corners.
+    pub fn assemble_corners(&self, corners: &[Transformed; 3]) -> Assembled {
         match cull::verdict(corners.each_ref().map(Corner::from), self.cull) {
             Verdict::Culled(reason) => Assembled::Culled(reason),
             Verdict::Dropped(reason) => dropped(reason),
-            Verdict::Cut => self.assemble_pieces(corners.map(|corner| corner.view)),
-            Verdict::Kept => self.kept(&corners),
+            Verdict::Cut => self.assemble_pieces(corners.each_ref().map(|corner| corner.view)),
+            Verdict::Kept => self.kept(corners),
         }
     }
 

@@ -14,7 +14,7 @@ use crate::mip_fetch::{self, Filter, MipFetch, Placement};
 use crate::remesher::{BaseTriangle, Format};
 use crate::step::Vertex;
 use crate::strip_unit::StripUnit;
-use crate::vertex_transform::BaseVertex;
+use crate::vertex_transform::{BaseVertex, Transformed};
 
 /// What the design is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -136,8 +136,10 @@ pub mod counter {
 #[derive(Clone, Debug)]
 pub struct Machine {
     format: Format,
-    /// Constants, and the vertex memory.
+    /// Constants.
     draw: Draw,
+    /// The vertex memory: records, transformed as they came.
+    vertices: Vec<Transformed>,
     light: Light,
     view: View,
     map: MipFetch,
@@ -151,9 +153,12 @@ impl Machine {
     ///
     /// `format` has at least nine components.
     pub fn new(format: &Format, places: usize, bank_words: usize) -> Self {
+        let draw = Draw::blank(format);
+        let nothing = BaseVertex { position: [0; 3], normal: [0; 3], texel: [0; 2], density: 0 };
         Self {
             format: *format,
-            draw: Draw::blank(format, places),
+            vertices: vec![draw.transformed(nothing); places],
+            draw,
             light: Light { direction: [0; 3], colour: [0; 3] },
             view: View { skips: false, passes: false, half: [0; 2] },
             map: MipFetch::new(bank_words),
@@ -178,10 +183,11 @@ impl Machine {
                 }
                 numbers::write(&mut self.draw, &mut self.light, &mut self.view, number, value);
             }
-            Command::Record { place, vertex } => {
-                let places = self.draw.records.len();
-                self.draw.records[place % places] = vertex;
+            Command::Record { place, vertex } if self.begun => {
+                let places = self.vertices.len();
+                self.vertices[place % places] = self.draw.transformed(vertex);
             }
+            Command::Record { .. } => {}
             Command::Size { level, placement } => {
                 self.map.accept(&mip_fetch::Command::Size { level, placement });
             }
@@ -203,8 +209,8 @@ impl Machine {
     }
 
     fn triangle(&mut self, places: [usize; 3], sink: &mut impl FnMut(Sent)) {
-        let memory = self.draw.records.len();
-        let assembled = self.draw.assemble_corners(places.map(|place| (place % memory) as u32));
+        let memory = self.vertices.len();
+        let assembled = self.draw.assemble_corners(&places.map(|place| self.vertices[place % memory]));
         self.counters[counter::BASES] += 1;
         match &assembled {
             Assembled::Culled(reason) => self.counters[culled(*reason)] += 1,

@@ -29,9 +29,8 @@ use std::{
 const HARNESS: &str = include_str!("harness.cpp");
 
 /// Flags of the compiler: those of Verilator's make file, of which the warnings concern Verilator's authors.
-const COMPILER_FLAGS: [&str; 9] = [
+const COMPILER_FLAGS: [&str; 8] = [
     "-std=gnu++17",
-    "-O2",
     // Verilator multiplies signed words and lets them overflow, which C++ leaves undefined.
     "-fwrapv",
     "-faligned-new",
@@ -41,6 +40,9 @@ const COMPILER_FLAGS: [&str; 9] = [
     "-DVM_SC=0",
     "-DVM_TRACE_FST=0",
 ];
+
+/// Of what runs every cycle. With -O2 the compiler takes seven times as long for a large design, which runs no faster.
+const EVERY_CYCLE: &str = "-O1";
 
 /// Bytes that fit a pipe whose size could not be raised, with room to spare: so much can be written without reading.
 const SAFE_BATCH: usize = 32 << 10;
@@ -124,6 +126,7 @@ impl Verilator {
             key.add(text.as_bytes());
         }
         key.add(COMPILER_FLAGS.join(" ").as_bytes());
+        key.add(EVERY_CYCLE.as_bytes());
         key.add(self.generator_flags(design).join(" ").as_bytes());
         let sources = design.absolute_sources()?;
         for source in &sources {
@@ -188,24 +191,27 @@ impl Verilator {
         generate.current_dir(design.folder()?);
         program::run(&mut generate, &what, self.limit)?.expect_success(&what)?;
 
-        // One object of everything: each file of its own would read the same headers again.
+        // Two objects, of what runs every cycle and of what runs once: each file of its own would read the same headers
+        // again.
         let list = folder.join("Vdut_classes.mk");
         let list = fs::read_to_string(&list).map_err(io_error(format!("reading `{}`", list.display())))?;
-        let all: String = ["VM_CLASSES_FAST", "VM_CLASSES_SLOW", "VM_SUPPORT_FAST", "VM_SUPPORT_SLOW"]
-            .iter()
-            .flat_map(|name| make_variable(&list, name))
-            .map(|class| format!("#include \"{class}.cpp\"\n"))
-            .chain([harness.to_string()])
-            .collect();
-        write(&folder.join("all.cpp"), &all)?;
         let include = self.include_folder()?;
         let what = format!("compiling the simulator of `{top}`");
-        let mut compile = self.compiler(&include);
-        compile.args(["-c", "all.cpp", "-o", "all.o"]).current_dir(folder);
-        program::run(&mut compile, &what, self.limit)?.expect_success(&what)?;
+        for (object, kind, level) in [("fast", "FAST", EVERY_CYCLE), ("slow", "SLOW", "-O0")] {
+            let classes = [format!("VM_CLASSES_{kind}"), format!("VM_SUPPORT_{kind}")];
+            let classes = classes.iter().flat_map(|name| make_variable(&list, name));
+            let mut all: String = classes.map(|class| format!("#include \"{class}.cpp\"\n")).collect();
+            if kind == "FAST" {
+                all += harness;
+            }
+            write(&folder.join(format!("{object}.cpp")), &all)?;
+            let mut compile = self.compiler(&include);
+            compile.args([level, "-c", &format!("{object}.cpp"), "-o", &format!("{object}.o")]).current_dir(folder);
+            program::run(&mut compile, &what, self.limit)?.expect_success(&what)?;
+        }
 
         let mut link = Command::new("g++");
-        link.args(["-o", "simulator", "all.o"]).current_dir(folder);
+        link.args(["-o", "simulator", "fast.o", "slow.o"]).current_dir(folder);
         for class in ["VM_GLOBAL_FAST", "VM_GLOBAL_SLOW"].iter().flat_map(|name| make_variable(&list, name)) {
             link.arg(self.runtime(&class, versions, &include)?);
         }
@@ -236,7 +242,7 @@ impl Verilator {
             self.once(&object, |folder| {
                 let what = format!("compiling Verilator's `{class}`");
                 let mut compile = self.compiler(include);
-                compile.arg("-c").arg(&source).args(["-o", "runtime.o"]).current_dir(folder);
+                compile.arg("-O2").arg("-c").arg(&source).args(["-o", "runtime.o"]).current_dir(folder);
                 program::run(&mut compile, &what, self.limit)?.expect_success(&what)?;
                 Ok(folder.join("runtime.o"))
             })?;
