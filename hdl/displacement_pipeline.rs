@@ -88,7 +88,7 @@ pub struct DisplacementPipeline<
     pub out_height: Output<Lanes<3, 25>>,
     /// Red lowest, 8 bits each.
     pub out_colour: Output<U<24>>,
-    /// Sticky: of the height fetch or the strip unit.
+    /// Sticky: of the height fetch or the strip unit, as of the beat at the output.
     pub error: Output<Bit>,
     constants: Gated<Constants>,
     assembly: Gated<Assembly<V, N>>,
@@ -100,6 +100,7 @@ pub struct DisplacementPipeline<
     counters: Gated<Counters>,
     // What stands at the output.
     sent: Register<Bit>,
+    sent_error: Register<Bit>,
     sent_report: DataRegister<Bit>,
     sent_value: DataRegister<U<32>>,
     sent_x: DataRegister<Lanes<3, 22>>,
@@ -185,6 +186,7 @@ impl<
             shading: Gated::default(),
             counters: Gated::default(),
             sent: Register::default(),
+            sent_error: Register::default(),
             sent_report: DataRegister::default(),
             sent_value: DataRegister::default(),
             sent_x: DataRegister::default(),
@@ -242,7 +244,19 @@ impl<
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
-        dff_setup!(self, clock, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour);
+        dff_setup!(
+            self,
+            clock,
+            sent,
+            sent_error,
+            sent_report,
+            sent_value,
+            sent_x,
+            sent_y,
+            sent_c,
+            sent_height,
+            sent_colour
+        );
         dff_setup!(self, clock, pieces, reads, reports, clears, begun, report_index, rested);
 
         // Commands
@@ -414,6 +428,8 @@ impl<
         }
         if self.out_free.val() {
             self.sent.d.next = self.shading.out_valid.val() || self.reports.q.val();
+            self.sent_error.d.next =
+                self.sent_error.q.val() || self.vertices.error.val() || self.strip_unit.error.val();
             self.sent_report.d.next = self.reports.q.val();
             self.sent_value.d.next = 0.into();
             self.sent_x.d.next = self.shading.out_x.val();
@@ -438,7 +454,7 @@ impl<
         self.out_c.next = self.sent_c.q.val();
         self.out_height.next = self.sent_height.q.val();
         self.out_colour.next = self.sent_colour.q.val();
-        self.error.next = self.vertices.error.val() || self.strip_unit.error.val();
+        self.error.next = self.sent_error.q.val();
 
         // Pieces on their way
         self.piece_goes.next = self.assembly.piece_valid.val() && self.assembly.piece_ready.val();
@@ -495,6 +511,6 @@ ports! {
         inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
         outputs: in_ready, out_valid, out_report, out_value, out_x, out_y, out_c, out_height, out_colour, error;
         blocks: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters;
-        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, begun, report_index, rested
+        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_error, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, begun, report_index, rested
     }
 }
