@@ -66,12 +66,18 @@ impl Lanes {
         out
     }
 
-    /// The nine lanes of 32 bits of a vertex that the remesher sent.
-    pub fn widen(&self, vertex: &Vertex) -> Vertex {
+    /// The nine lanes of a difference of vertices, each as many bits wider as it is of a vertex; those that stayed behind are 0.
+    pub fn widen_difference(&self, difference: &Vertex) -> Vertex {
         let mut out = [0; MAX_COMPONENTS];
         for (from, to) in self.travelling().enumerate() {
-            out[to] = vertex[from] << (32 - self.bits);
+            out[to] = difference[from] << (32 - self.bits);
         }
+        out
+    }
+
+    /// The nine lanes of 32 bits of a vertex that the remesher sent.
+    pub fn widen(&self, vertex: &Vertex) -> Vertex {
+        let mut out = self.widen_difference(vertex);
         let c = out[lane::C];
         if let Some(normal) = self.normal {
             // As `vertex_transform::project` makes them of a vertex: SQ1.30 times UQ0.31; 1.0 saturates.

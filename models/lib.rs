@@ -14,6 +14,7 @@ pub mod digits;
 pub mod displace;
 pub mod displacement_pipeline;
 pub mod draw;
+pub mod exact_footprint;
 pub mod face_normal;
 pub mod failures;
 pub mod filter_level;
