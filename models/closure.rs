@@ -12,10 +12,9 @@
 
 use crate::clip;
 use crate::displace::displaced;
-use crate::displacement_pipeline::displaced_vertex;
 use crate::draw::{Assembled, Counts, Draw};
-use crate::mip_build::Pyramid;
 use crate::remesher::{Format, Place, observe};
+use crate::rules::{Pyramids, Ruled};
 use crate::step::Vertex;
 use crate::vertex_transform::{ViewVertex, distance, view};
 use rustc_hash::FxHashMap;
@@ -78,8 +77,9 @@ struct Edge {
     owner: Option<Owner>,
 }
 
-/// The edges of a draw, made for `format`.
-pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
+/// The edges of a draw, made for `format`, by its [rules](crate::rules).
+pub fn closure<'a>(draw: &Draw, format: &Format, pyramids: impl Into<Pyramids<'a>>) -> Closure {
+    let pyramids = pyramids.into();
     let mut out = Closure::default();
     let mut edges: FxHashMap<[Point; 2], Edge> = FxHashMap::default();
     // How often a base edge is run one way more than the other, and whether all its base triangles are there.
@@ -103,10 +103,11 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
             }
         }
         for (piece, sides) in assembled.pieces().iter().zip(&sides) {
+            let ruled = Ruled::new(draw, format, piece);
             let mut known: FxHashMap<Place, Vertex> = FxHashMap::default();
             observe(format, piece, &mut |step, rung| {
                 let mut send = |place, vertex: &Vertex| {
-                    known.insert(place, displaced_vertex(draw, pyramid, vertex));
+                    known.insert(place, ruled.displaced(pyramids, vertex, place));
                 };
                 if step.sends_left() {
                     send(rung.next_left, &step.left_vertex);
@@ -154,6 +155,8 @@ pub fn closure(draw: &Draw, format: &Format, pyramid: &Pyramid) -> Closure {
         }
         match edge.owner {
             Some(Owner::Cut) => out.dropped += 1,
+            // Copies of one corner that have parted.
+            Some(Owner::Base(a, b)) if a == b => out.cracks += 1,
             Some(Owner::Base(a, b)) => match base_edges.get(&(a, b)) {
                 Some((0, true)) => out.cracks += 1,
                 Some((_, false)) => out.dropped += 1,

@@ -25,19 +25,26 @@ use crate::draw::{Draw, Request};
 use crate::mip_build::Pyramid;
 use crate::mip_fetch::{self, Filter};
 use crate::remesher::{self, BaseTriangle, Format};
+use crate::rules::{Pyramids, Ruled, Rules};
 use crate::step::{Step, Vertex};
 use crate::strip_unit::{StripOutput, StripUnit};
 
 /// Sends the displaced triangles of a base triangle to `sink`, in winding order; the hardware sends the same ones.
 ///
-/// `base` is a piece of [`Draw::assemble`], made for `format`.
-pub fn golden(
+/// `base` is a piece of [`Draw::assemble`], made for `format`. A draw whose [rules](crate::rules) the hardware does not have
+/// goes another way, and may need two pyramids.
+pub fn golden<'a>(
     draw: &Draw,
     format: &Format,
-    pyramid: &Pyramid,
+    pyramids: impl Into<Pyramids<'a>>,
     base: &BaseTriangle,
     sink: &mut impl FnMut([Vertex; 3]),
 ) {
+    let pyramids = pyramids.into();
+    if draw.rules != Rules::HARDWARE {
+        return Ruled::new(draw, format, base).triangles(pyramids, sink);
+    }
+    let pyramid = pyramids.maxima;
     let mut unit = StripUnit::new(format.column_depth);
     strips(draw, format, base, &mut unit, &mut |request| fetch(pyramid, request), &mut |_, out| {
         out.triangles().for_each(&mut *sink);
@@ -69,7 +76,7 @@ fn strips(
     });
 }
 
-/// A vertex of the remesher, displaced by its height.
+/// A vertex of the remesher, displaced by its height as the hardware does it.
 pub(crate) fn displaced_vertex(draw: &Draw, pyramid: &Pyramid, vertex: &Vertex) -> Vertex {
     draw.displace(vertex, fetch(pyramid, &draw.request(vertex)))
 }

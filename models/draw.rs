@@ -26,6 +26,7 @@ use crate::light::{self, Light, Material};
 use crate::perspective_correct::{self, Axis};
 use crate::remesher::{BaseTriangle, Format};
 use crate::rsqrt::normalize;
+use crate::rules::Rules;
 use crate::step::Vertex;
 use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, Source, Transformed, ViewVertex, lane};
 use glam::{DVec2, DVec3};
@@ -300,6 +301,8 @@ pub struct Draw {
     pub volume: cull::Constants,
     /// Constants of the filter level.
     pub level: filter_level::Constants,
+    /// How a vertex finds its height; those of the hardware unless changed. [`request`](Self::request) does not know others.
+    pub rules: Rules,
     /// The map's axes u and v.
     pub axes: [Axis; 2],
     /// Constants of the displacement.
@@ -497,6 +500,7 @@ impl Draw {
             transform,
             volume,
             level,
+            rules: Rules::HARDWARE,
             axes,
             displacement,
             lanes,
@@ -539,6 +543,7 @@ impl Draw {
             transform,
             volume,
             level: filter_level::Constants { scale: 0, shift: 0, levels: 1 },
+            rules: Rules::HARDWARE,
             axes: [axis; 2],
             displacement: displace::Constants { minimum: 0, range: 0, exponent: 0, focal: transform.focal },
             lanes: Lanes { bits: format.vertex_bits, ..Lanes::WHOLE },

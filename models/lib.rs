@@ -34,6 +34,7 @@ pub mod raster;
 pub mod reciprocal;
 pub mod remesher;
 pub mod rsqrt;
+pub mod rules;
 pub mod sat_average;
 pub mod sat_build;
 pub mod sat_fetch;

@@ -47,6 +47,9 @@ pub enum PlanError {
     /// An object, counted from 0, does not fit.
     #[error("object {0}: {1}")]
     Draw(usize, #[source] DrawError),
+    /// Rules that the hardware does not have.
+    #[error("{0}")]
+    Rules(String),
     /// Nothing can be measured.
     #[error(
         "no vertex of the scene lies within the picture, so there is no error to keep; a `target` on an object is expected"
@@ -158,8 +161,11 @@ impl<'a> Planner<'a> {
     /// Prepares a scene.
     ///
     /// # Errors
-    /// It does not fit any widths, or is too much.
+    /// It does not fit any widths, is too much, or has [rules](crate::rules) that the hardware does not have.
     pub fn new(scene: &'a Scene, progress: &'a dyn Progress) -> Result<Self, PlanError> {
+        if let Some(refusal) = scene.remesh.rules.refusal() {
+            return Err(PlanError::Rules(refusal));
+        }
         let mut triangles = 0;
         let prepare = |(at, object): (usize, &'a Object)| {
             let draw = scene.draw(object, &scene.view(), &WIDEST).map_err(|error| PlanError::Draw(at, error))?;

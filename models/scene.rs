@@ -22,6 +22,7 @@ use glam::DVec3;
 use crate::body::BaseMesh;
 use crate::map::{HeightMap, Wrap};
 use crate::mesh::{InputError, Place};
+use crate::rules::Rules;
 
 mod base;
 mod camera;
@@ -84,6 +85,8 @@ pub struct Remesh {
     pub cull: bool,
     /// Levels that a map has at most, level 0 included; a scene file leaves them all.
     pub levels: usize,
+    /// How a vertex finds its height.
+    pub rules: Rules,
 }
 
 /// A base mesh with the map that displaces it.

@@ -16,6 +16,7 @@ use crate::draw::{Assembled, CameraView, Draw, DrawError, DropReason};
 use crate::mesh::Progress;
 use crate::plan::MOST_TRIANGLES;
 use crate::remesher::{BaseTriangle, Format};
+use crate::rules::Rules;
 use crate::scene::Scene;
 use crate::step::Vertex;
 use glam::DVec3;
@@ -37,7 +38,7 @@ pub struct Path {
 pub struct Wagging {
     /// Side of a voxel, pixels.
     pub cell_px: f64,
-    /// Whether the levels of maxima are read; the map itself otherwise.
+    /// Whether levels are read, those of maxima unless the scene has other [rules](crate::rules); the map itself otherwise.
     pub filtered: bool,
     /// Triangles of all frames.
     pub triangles: u64,
@@ -118,9 +119,9 @@ fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) ->
     for (at, object) in scene.objects.iter().enumerate() {
         let mut draw = scene.draw(object, view, format).map_err(|error| WaggingError::Draw(at, error))?;
         if !filtered {
-            draw.level.levels = 1;
+            (draw.level.levels, draw.rules) = (1, Rules::HARDWARE);
         }
-        let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
+        let pyramids = scene.pyramids(object).unwrap_or_else(|error| unreachable!("{error}"));
         let assembled: Vec<Assembled> = (0..draw.triangles.len()).map(|index| draw.assemble(index)).collect();
         expected += assembled.iter().flat_map(Assembled::pieces).map(BaseTriangle::estimate).sum::<u64>();
         if expected > MOST_TRIANGLES {
@@ -130,7 +131,7 @@ fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) ->
             let dropped = |reason: &DropReason| *reason != DropReason::Near;
             beyond += u64::from(matches!(assembled, Assembled::Dropped(reason) if dropped(reason)));
             for piece in assembled.pieces() {
-                golden(&draw, format, &pyramid, piece, &mut |triangle| {
+                golden(&draw, format, &pyramids, piece, &mut |triangle| {
                     if Draw::is_drawable(&triangle) {
                         triangles += 1;
                         raise(&mut top, &triangle);

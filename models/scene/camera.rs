@@ -7,6 +7,7 @@ use toml::Spanned;
 use super::numbers::{counts, direction, finite, positive, short_vector, vector, within};
 use super::{Camera, Light, Remesh, fields};
 use crate::digits::short;
+use crate::rules::Rules;
 
 /// Pixels of a side of the picture: 13 bits of Q13.8 on either side of its centre.
 const VIEWPORT: u32 = 4096;
@@ -62,7 +63,12 @@ pub(super) fn resolve(camera: &fields::Camera) -> Result<(Camera, Option<String>
 
 pub(super) fn resolve_remesh(remesh: Option<&fields::Remesh>) -> Result<Remesh, String> {
     let cell_px = within("cell_px", remesh.and_then(|remesh| remesh.cell_px).unwrap_or(2.0), 1.0, 64.0);
-    Ok(Remesh { cell_px: cell_px?, cull: remesh.and_then(|remesh| remesh.cull).unwrap_or(true), levels: usize::MAX })
+    let rules = Rules {
+        footprint: remesh.and_then(|remesh| remesh.footprint).unwrap_or_default(),
+        extremum: remesh.and_then(|remesh| remesh.extremum).unwrap_or_default(),
+    };
+    let cull = remesh.and_then(|remesh| remesh.cull).unwrap_or(true);
+    Ok(Remesh { cell_px: cell_px?, cull, levels: usize::MAX, rules })
 }
 
 pub(super) fn resolve_lights(lights: &[Spanned<fields::Light>]) -> Result<Vec<Light>, (usize, String)> {

@@ -40,6 +40,7 @@ impl Scene {
         let map = MapInfo { width, height, repeat, levels };
         let mut draw = Draw::new(view, &vertices, &object.mesh.triangles, &map, object.displacement, format)?;
         draw.cull = self.remesh.cull;
+        draw.rules = self.remesh.rules;
         if let Some(colour) = object.colour {
             draw.material = Material::plain(colour);
         }
@@ -58,9 +59,21 @@ impl Scene {
     /// # Errors
     /// The map has no levels; a scene's reader lets none through.
     pub fn pyramid(&self, object: &Object) -> Result<Pyramid, MipError> {
+        self.pyramid_of(object, Extremum::Max)
+    }
+
+    /// An object's levels, the greatest and the least, for [rules](crate::rules) that read minima.
+    ///
+    /// # Errors
+    /// As of [`pyramid`](Self::pyramid).
+    pub fn pyramids(&self, object: &Object) -> Result<[Pyramid; 2], MipError> {
+        Ok([self.pyramid(object)?, self.pyramid_of(object, Extremum::Min)?])
+    }
+
+    fn pyramid_of(&self, object: &Object, extremum: Extremum) -> Result<Pyramid, MipError> {
         let BuildSize { width, height, wrap, centring, levels, poles } = self.levels(object);
         let build = if poles { golden_with_poles } else { golden };
-        build(width, height, &object.map.samples, centring, wrap, Extremum::Max, levels)
+        build(width, height, &object.map.samples, centring, wrap, extremum, levels)
     }
 }
 

@@ -10,6 +10,7 @@ use toml::Spanned;
 
 use crate::body::UvSource;
 use crate::map::{Procedural, Wrap};
+use crate::rules::{ExtremumRule, FootprintRule};
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -39,6 +40,8 @@ pub(super) struct Camera {
 pub(super) struct Remesh {
     pub(super) cell_px: Option<f64>,
     pub(super) cull: Option<bool>,
+    pub(super) footprint: Option<FootprintRule>,
+    pub(super) extremum: Option<ExtremumRule>,
 }
 
 #[derive(Deserialize)]

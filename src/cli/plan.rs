@@ -80,7 +80,7 @@ pub fn run(arguments: &Arguments) -> Result {
             scene.source.error(Entry::Camera, cause)
         }
         PlanError::Draw(at, cause) => scene.source.error(Entry::Object(*at), cause),
-        PlanError::Much { .. } => scene.source.error(Entry::Remesh, &error),
+        PlanError::Much { .. } | PlanError::Rules(_) => scene.source.error(Entry::Remesh, &error),
         PlanError::Nothing => scene.source.error(Entry::Camera, &error),
         PlanError::Bound { .. } => scene.source.whole(error.to_string()),
     };

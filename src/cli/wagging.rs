@@ -8,6 +8,7 @@ use std::path::PathBuf;
 use glam::DVec3;
 use relief_hdl::widths::WIDTH_SETS;
 use relief_models::draw::DrawError;
+use relief_models::rules::ExtremumRule;
 use relief_models::scene::{self, Entry};
 use relief_models::wagging::{Path, Wagging, WaggingError, measure};
 use relief_testbench::remesher::format;
@@ -19,7 +20,7 @@ use super::{Meter, Outcome, Result, write_all};
 ///
 /// The camera moves along a line, and in each frame the horizon of the displaced mesh, column by column, is compared with
 /// that of a mesh of half the smallest cell without a filter. Wagging is the RMS of the change of that difference from
-/// frame to frame. Each cell is measured with the levels of maxima, and with plain samples of the map. See docs/stability.md.
+/// frame to frame. Each cell is measured with the levels of maxima, or by the rules that `[remesh]` has, and with plain samples of the map. See docs/stability.md.
 #[derive(clap::Args)]
 pub struct Arguments {
     /// The scene (TOML)
@@ -95,7 +96,12 @@ pub fn run(arguments: &Arguments) -> Result {
         arguments.frames, "cell", "filter", "triangles", "wagging", "error", "mean", "jump"
     );
     for row in &rows {
-        let filter = if row.filtered { "maximum" } else { "none" };
+        let filter = match scene.remesh.rules.extremum {
+            _ if !row.filtered => "none",
+            ExtremumRule::Max => "maximum",
+            ExtremumRule::Min => "minimum",
+            rule => rule.name(),
+        };
         let Wagging { cell_px, triangles, wagging, error, mean, jump, .. } = row;
         let _ = writeln!(
             text,
