@@ -8,13 +8,15 @@
 use crate::body::{BaseMesh, BaseMeshVertex};
 use crate::closure::{Closure, closure};
 use crate::displacement_pipeline::Deviation;
-use crate::draw::DrawError;
+use crate::draw::{Assembled, CameraView, Draw, DrawError};
 use crate::mesh::Progress;
 use crate::plan::{PlanError, Planner, Widths};
-use crate::remesher::Format;
+use crate::remesher::{Format, Place, observe};
+use crate::rules::{ExtremumRule, FootprintRule, Ruled, Rules};
 use crate::scene::{Scene, parse};
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 use serde::Serialize;
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
@@ -252,8 +254,8 @@ pub fn outcome(failure: &FailureScene) -> Result<Outcome, DrawError> {
         for object in &scene.objects {
             let mut draw = scene.draw(object, &scene.view(), format)?;
             draw.cull = cull;
-            let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
-            all = all.with(&closure(&draw, format, &pyramid));
+            let pyramids = scene.pyramids(object).unwrap_or_else(|error| unreachable!("{error}"));
+            all = all.with(&closure(&draw, format, &pyramids));
         }
         Ok(all)
     };
@@ -264,6 +266,128 @@ pub fn outcome(failure: &FailureScene) -> Result<Outcome, DrawError> {
     let planner = Planner::new(scene, &()).map_err(of)?;
     let trial = planner.try_widths(&Widths { format: *format, levels: usize::MAX }).map_err(of)?;
     Ok(Outcome { whole: edges(false)?, drawn: edges(true)?, deviation: trial.deviation })
+}
+
+/// What [rules](crate::rules) make of a closed body at a size of voxels.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RuleRow {
+    /// The rules.
+    pub rules: Rules,
+    /// Side of a voxel, pixels.
+    pub cell_px: f64,
+    /// Its edges with every base triangle kept.
+    pub closure: Closure,
+    /// Corners that more than one base triangle has.
+    pub corners: u64,
+    /// Those of them at which the base triangles read different levels.
+    pub disputed: u64,
+    /// Sides of triangles from a base edge to the inside.
+    pub links: u64,
+    /// Those of them whose ends read different levels: what shows as a trench along the base edge.
+    pub stepped: u64,
+}
+
+impl RuleRow {
+    /// Whether an edge is open for no reason although the rules forbid it.
+    pub const fn is_broken(&self) -> bool {
+        self.rules.keeps_closed() && self.closure.cracks > 0
+    }
+}
+
+/// The rules that are compared, those of the hardware first, and sides of a voxel.
+pub const RULES: [Rules; 6] = {
+    use ExtremumRule::{Max, Min, Triangle, Vertex};
+    use FootprintRule::{Density, Exact, Paper};
+    let of = [(Density, Max), (Density, Min), (Density, Vertex), (Exact, Max), (Paper, Max), (Density, Triangle)];
+    let mut rules = [Rules::HARDWARE; 6];
+    let mut k = 0;
+    while k < 6 {
+        rules[k] = Rules { footprint: of[k].0, extremum: of[k].1 };
+        k += 1;
+    }
+    rules
+};
+/// The sizes of voxels at which they are compared, pixels.
+pub const RULE_CELLS: [f64; 3] = [1.0, 5.0, 20.0];
+
+/// The closed body on which they are compared: a sphere with seam and poles under noise of some texels a pixel.
+pub fn rule_body() -> (Scene, Format) {
+    let text = "[camera]\neye = [0.8, -3.8, 2]\nnear = 0.1\nfar = 20\n".to_owned()
+        + SPHERE
+        + "map = { kind = \"noise\", size = [512, 257] }\ndisplacement = [-0.05, 0.15]\n";
+    (parse(&text, "scene", Path::new("")).unwrap_or_else(|error| unreachable!("{error}")), DEFAULT)
+}
+
+/// All rules on [`rule_body`], on all cores, by cell.
+///
+/// # Errors
+/// It does not fit its formats.
+pub fn rule_rows(progress: &dyn Progress) -> Result<Vec<RuleRow>, DrawError> {
+    let (scene, format) = rule_body();
+    let object = &scene.objects[0];
+    let pyramids = scene.pyramids(object).unwrap_or_else(|error| unreachable!("{error}"));
+    let work: Vec<(f64, Rules)> = RULE_CELLS.iter().flat_map(|cell| RULES.map(|rules| (*cell, rules))).collect();
+    progress.phase("comparing rules", work.len() as u64);
+    let done = AtomicU64::new(0);
+    let row = |&(cell_px, rules): &(f64, Rules)| {
+        let mut draw = scene.draw(object, &CameraView { cell_px, ..scene.view() }, &format)?;
+        (draw.cull, draw.rules) = (false, rules);
+        let closure = closure(&draw, &format, &pyramids);
+        let ((corners, disputed), (links, stepped)) = (disputed(&draw, &format), stepped(&draw, &format));
+        progress.advance(done.fetch_add(1, Relaxed) + 1);
+        Ok(RuleRow { rules, cell_px, closure, corners, disputed, links, stepped })
+    };
+    work.par_iter().map(row).collect()
+}
+
+/// How many corners several base triangles have, and how many of those they read at different levels, or one at maxima and
+/// one at minima. Copies of a corner at one place are one corner.
+fn disputed(draw: &Draw, format: &Format) -> (u64, u64) {
+    let mut read: FxHashMap<[i32; 3], Vec<(u32, bool)>> = FxHashMap::default();
+    for index in 0..draw.triangles.len() {
+        let Assembled::Kept(base) = draw.assemble(index) else { continue };
+        let ruled = Ruled::new(draw, format, &base);
+        for (k, vertex) in draw.triangles[index].iter().enumerate() {
+            let level = ruled.request(&base.data[k], Place::Corner(k as u8)).level;
+            let at = draw.records[*vertex as usize].position;
+            read.entry(at).or_default().push((level, ruled.reads_minima(&base.data[k])));
+        }
+    }
+    let shared = || read.values().filter(|read| read.len() > 1);
+    let differ = |read: &&Vec<(u32, bool)>| read.iter().any(|one| *one != read[0]);
+    (shared().count() as u64, shared().filter(differ).count() as u64)
+}
+
+/// How many sides of triangles lead from a base edge to the inside, and over how many of those the level changes.
+fn stepped(draw: &Draw, format: &Format) -> (u64, u64) {
+    let (mut links, mut stepped) = (0, 0);
+    for index in 0..draw.triangles.len() {
+        for piece in draw.assemble(index).pieces() {
+            let ruled = Ruled::new(draw, format, piece);
+            let mut levels: FxHashMap<Place, u32> = FxHashMap::default();
+            observe(format, piece, &mut |step, rung| {
+                if step.sends_left() {
+                    levels.insert(rung.next_left, ruled.request(&step.left_vertex, rung.next_left).level);
+                }
+                if step.sends_right() {
+                    levels.insert(rung.next_right, ruled.request(&step.right_vertex, rung.next_right).level);
+                }
+                for places in rung.triangles(step) {
+                    for k in 0..3 {
+                        let (a, b) = (places[k], places[(k + 1) % 3]);
+                        // Either way round; the triangle on the other side of it counts it again.
+                        if let (Place::Edge { .. }, Place::Interior { .. })
+                        | (Place::Interior { .. }, Place::Edge { .. }) = (a, b)
+                        {
+                            links += 1;
+                            stepped += u64::from(levels[&a] != levels[&b]);
+                        }
+                    }
+                }
+            });
+        }
+    }
+    (links, stepped)
 }
 
 /// All scenes, on all cores, in their order.
