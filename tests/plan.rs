@@ -101,6 +101,17 @@ fn plan_and_run_refuse_with_a_sentence() -> Outcome {
         &["run", file, "--param", "position"],
         "the width sets default, large, terrain, terrain_large, small, deep have it",
     );
+    // Rules that only golden has, by name and line.
+    for (rule, expected) in
+        [("footprint = \"paper\"", "\"density\" is expected"), ("extremum = \"min\"", "\"max\" is expected")]
+    {
+        fs::write(&path, PLATE.replace("cell_px = 4", &format!("cell_px = 4\n{rule}")))?;
+        let (field, value) = rule.split_once(" = ").ok_or("no value")?;
+        let sentence = format!("scene.toml:6: [remesh] `{field}` is {value}, which the golden models alone have");
+        refused(&["plan", file], &sentence);
+        refused(&["run", file], &sentence);
+        refused(&["run", file, "--engine", "design"], expected);
+    }
     // A sphere's normals vary, so five components are too few.
     let sphere = PLATE.replace("kind = \"grid\", cells = [6, 6], size = [2, 2]", "kind = \"sphere\"");
     fs::write(&path, sphere.replace("[129, 129]", "[128, 129]"))?;

@@ -60,8 +60,11 @@ fn limit_of(set: &WidthSet) -> Limit {
 /// Prepares a scene for a width set.
 ///
 /// # Errors
-/// It does not fit, or would take too long.
+/// It does not fit, has rules that the hardware does not have, or would take too long.
 pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, InputError> {
+    if let Some(refusal) = scene.remesh.rules.refusal() {
+        return Err(scene.source.error(Entry::Remesh, refusal));
+    }
     let view = scene.view();
     let mut prepared = Prepared { scene, objects: Vec::new(), triangles: 0, warnings: Vec::new() };
     let mut all = Counts::default();
@@ -265,6 +268,22 @@ mod tests {
         let expected = "scene.toml:5: [[object]] 1: the map ramp of 512 x 9 samples has a side beyond the limit of 511; a \
                         smaller map is expected";
         assert_eq!(error, expected);
+    }
+
+    /// The hardware has one footprint and maxima.
+    #[test]
+    fn prepare_refuses_rules_that_the_hardware_does_not_have() {
+        for (rule, expected) in [("footprint = \"exact\"", "density"), ("extremum = \"vertex\"", "max")] {
+            let text = SCENE.replace("cell_px = 4", &format!("cell_px = 4\n{rule}"));
+            let scene = parse(&text, "scene.toml", Path::new("")).unwrap();
+            let error = prepare(&scene, &WIDTH_SETS[0]).err().unwrap().to_string();
+            let (field, value) = rule.split_once(" = ").unwrap();
+            let expected = format!(
+                "scene.toml:3: [remesh] `{field}` is {value}, which the golden models alone have, for `relief stability` and \
+                 `relief wagging`; \"{expected}\" is expected"
+            );
+            assert_eq!(error, expected);
+        }
     }
 
     /// A map that the builder cannot count, past all checks: the sentence names entry, block, beat, cycle and both sides.
