@@ -102,7 +102,8 @@ impl Rules {
     /// What the hardware does.
     pub const HARDWARE: Rules = Rules { footprint: FootprintRule::Density, extremum: ExtremumRule::Max };
 
-    /// Whether the height is a function of what all base triangles round a vertex share, so that no mesh cracks.
+    /// Whether the height is a function of what all base triangles round a vertex share, so that no mesh cracks; with
+    /// difference vertices, but for a seam whose two sides round to either side of a threshold.
     pub const fn keeps_closed(self) -> bool {
         !matches!(self.footprint, FootprintRule::Paper) && !matches!(self.extremum, ExtremumRule::Triangle)
     }

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 use relief_models::remesher::Format;
+use relief_models::rules::ExtremumRule;
 use relief_models::scene::{Scene, parse};
 use relief_models::wagging::{Path, Wagging, measure};
 
@@ -36,6 +37,11 @@ fn wagging_grows_with_voxels_and_rests_with_the_camera() {
     assert!(of(10.0, false).mean > of(10.0, true).mean);
     let resting = measure(&scene, &Path { step: DVec3::ZERO, ..moving }, &cells[..1], &FORMAT, &()).unwrap();
     assert!(resting.iter().all(|row| row.wagging == 0.0 && row.jump == 0.0 && row.error > 0.0), "{resting:?}");
+    // Minima lie lower than maxima, and what is not filtered knows no rule.
+    let mut lower = scene.clone();
+    lower.remesh.rules.extremum = ExtremumRule::Min;
+    let [maxima, minima] = [&scene, &lower].map(|scene| measure(scene, &moving, &[10.0], &FORMAT, &()).unwrap());
+    assert!(minima[0] == maxima[0] && minima[1].mean > maxima[1].mean, "{minima:?} {maxima:?}");
     // The reference itself has no error.
     let same = measure(&scene, &moving, &[2.0, 4.0], &FORMAT, &()).unwrap();
     assert_eq!(of(2.0, false), same[0]);
