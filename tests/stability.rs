@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The maps on which methods fail: claims hold there in hardware, and a claim that does not hold is noticed.
 
-use relief_models::failures::scenes;
+use relief_models::failures::{RULE_CELLS, RULES, scenes};
 use relief_models::map::{HeightMap, Procedural};
 use relief_models::mesh::Progress;
 use relief_testbench::method::{Borders, Engine, Goal, METHODS, Method, MethodError, Tessellation, Uniform, Verdict};
@@ -89,7 +89,19 @@ fn stability_fails_for_no_method_in_hardware() {
         assert!(frames.contains(&format!("\n{}: {}\n  {}\n", scene.name, scene.why, scene.does)), "{frames}");
     }
     assert_eq!(frames.matches(" cycles, hardware = golden\n").count(), scenes.len(), "{frames}");
-    assert!(frames.ends_with(&format!("\n{} scenes, 0 with cracks\n", scenes.len())), "{frames}");
+    let (_, rules) = frames.split_once(&format!("\n{} scenes, 0 with cracks\n", scenes.len())).unwrap();
+    let count = RULES.len() * RULE_CELLS.len();
+    assert!(rules.ends_with(&format!("\n{count} rows, 0 with cracks where the rule forbids them\n")), "{rules}");
+    for rule in RULES {
+        let rows = rules.lines().filter(|line| line.contains(&format!(" {rule} ")));
+        let cracks = rows.map(|line| line.split_whitespace().nth(6).unwrap().parse::<u64>().unwrap());
+        assert_eq!(cracks.collect::<Vec<_>>().iter().all(|cracks| *cracks == 0), rule.keeps_closed(), "{rules}");
+    }
+    // The document has what the command prints.
+    let document = include_str!("../docs/stability.md");
+    for line in rules.lines().filter(|line| line.starts_with("  ")) {
+        assert!(document.contains(line), "{line}");
+    }
     // Every bisection ran as hardware.
     let drawn = text.lines().filter(|line| line.trim_start().starts_with("bisector")).map(|line| {
         let cells: Vec<&str> = line.split_whitespace().collect();
