@@ -15,7 +15,7 @@
 //! The difference for the next division is taken while the divider is at work, and the start of the walk from hi behind it.
 
 use crate::prelude::*;
-use crate::primitives::Divider;
+use crate::remesher::LaneDivider;
 
 /// Which edge is being divided.
 #[derive(Copy, Clone, PartialEq, Eq, Debug, LogicState)]
@@ -69,19 +69,36 @@ pub struct EdgeSetup<const L: usize, const V: usize, const W: usize, const X: us
     /// Its ends: 0 A, 1 B, 2 C.
     lo_from: DataRegister<U<2>>,
     hi_from: DataRegister<U<2>>,
+    /// A cycle before: what the lanes share goes to them by way of a register.
+    lo_pick: DataRegister<U<2>>,
+    hi_pick: DataRegister<U<2>>,
     difference: DataRegister<Lanes<L, X>>,
     numerator: DataRegister<Lanes<L, X>>,
     n_ahead: DataRegister<S<T>>,
+    /// The same a cycle later, for the numerators.
+    n_numerator: DataRegister<S<T>>,
     /// It has a vertex between its corners: n > 1.
     long_ahead: DataRegister<Bit>,
     hi_ahead: DataRegister<Lanes<L, V>>,
     /// Of the edge in the divider.
     n_now: DataRegister<S<T>>,
+    /// The same a cycle later, for the remainders.
+    n_rem: DataRegister<S<T>>,
     hi_now: DataRegister<Lanes<L, V>>,
+    /// The division began one cycle ago, two cycles ago.
+    begun: Register<Bit>,
+    takes_hi: Register<Bit>,
     /// The start of this edge is due: 1 AB, 2 AC, 3 BC.
     closing: Register<U<2>>,
+    /// The quotients of an edge are kept; its start is.
+    keeps_ab: Register<Bit>,
+    keeps_ac: Register<Bit>,
+    keeps_bc: Register<Bit>,
+    starts_ab: Register<Bit>,
+    starts_ac: Register<Bit>,
+    starts_bc: Register<Bit>,
     rem: DataRegister<Lanes<L, T>>,
-    divider: Divider<L, W, T>,
+    divider: LaneDivider<L, W, T>,
     finished: Register<Bit>,
     lo: Wire<Lanes<L, V>>,
     hi: Wire<Lanes<L, V>>,
@@ -132,16 +149,28 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             steady: Register::default(),
             lo_from: DataRegister::default(),
             hi_from: DataRegister::default(),
+            lo_pick: DataRegister::default(),
+            hi_pick: DataRegister::default(),
             difference: DataRegister::default(),
             numerator: DataRegister::default(),
             n_ahead: DataRegister::default(),
+            n_numerator: DataRegister::default(),
             long_ahead: DataRegister::default(),
             hi_ahead: DataRegister::default(),
             n_now: DataRegister::default(),
+            n_rem: DataRegister::default(),
             hi_now: DataRegister::default(),
+            begun: Register::default(),
+            takes_hi: Register::default(),
             closing: Register::default(),
+            keeps_ab: Register::default(),
+            keeps_ac: Register::default(),
+            keeps_bc: Register::default(),
+            starts_ab: Register::default(),
+            starts_ac: Register::default(),
+            starts_bc: Register::default(),
             rem: DataRegister::default(),
-            divider: Divider::default(),
+            divider: LaneDivider::default(),
             finished: Register::default(),
             lo: Wire::default(),
             hi: Wire::default(),
@@ -170,6 +199,11 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, keeps_ab, keeps_ac, keeps_bc, starts_ab, starts_ac, starts_bc);
+        dff_setup!(self, clock, begun, takes_hi);
+        dff_setup!(self, clock, n_rem);
+        dff_setup!(self, clock, n_numerator);
+        dff_setup!(self, clock, lo_pick, hi_pick);
         dff_setup!(self, clock, state, running, finished, ahead, fresh, settled, steady, lo_from, hi_from, closing);
         dff_setup!(self, clock, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg);
         dff_setup!(self, clock, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, rem);
@@ -185,29 +219,31 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         // The edge ahead, from its canonical end: which corners, then their data.
         if self.ahead.q.val() == 0 {
             self.n.next = self.n_ab.val();
-            self.lo_from.d.next = 0.into();
-            self.hi_from.d.next = 1.into();
+            self.lo_pick.d.next = 0.into();
+            self.hi_pick.d.next = 1.into();
             if self.a_hi_ab.val() {
-                self.lo_from.d.next = 1.into();
-                self.hi_from.d.next = 0.into();
+                self.lo_pick.d.next = 1.into();
+                self.hi_pick.d.next = 0.into();
             }
         } else if self.ahead.q.val() == 1 {
             self.n.next = self.n_ac.val();
-            self.lo_from.d.next = 0.into();
-            self.hi_from.d.next = 2.into();
+            self.lo_pick.d.next = 0.into();
+            self.hi_pick.d.next = 2.into();
             if self.a_hi_ac.val() {
-                self.lo_from.d.next = 2.into();
-                self.hi_from.d.next = 0.into();
+                self.lo_pick.d.next = 2.into();
+                self.hi_pick.d.next = 0.into();
             }
         } else {
             self.n.next = self.n_bc.val();
-            self.lo_from.d.next = 1.into();
-            self.hi_from.d.next = 2.into();
+            self.lo_pick.d.next = 1.into();
+            self.hi_pick.d.next = 2.into();
             if self.b_hi_bc.val() {
-                self.lo_from.d.next = 2.into();
-                self.hi_from.d.next = 1.into();
+                self.lo_pick.d.next = 2.into();
+                self.hi_pick.d.next = 1.into();
             }
         }
+        self.lo_from.d.next = self.lo_pick.q.val();
+        self.hi_from.d.next = self.hi_pick.q.val();
         if self.lo_from.q.val().get_bit(1) {
             self.lo.next = self.corner_c.val();
         } else if self.lo_from.q.val().get_bit(0) {
@@ -224,24 +260,38 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         }
         self.difference.d.next = bit_cast_to::<Lanes<L, X>>(self.hi.val()) - bit_cast_to::<Lanes<L, X>>(self.lo.val());
         self.n_ahead.d.next = self.n.val();
+        self.n_numerator.d.next = self.n_ahead.q.val();
+        self.n_rem.d.next = self.n_now.q.val();
         self.long_ahead.d.next = (self.n.val() >> 1) != 0;
         self.hi_ahead.d.next = self.hi.val();
 
         // floor(a / n + 1/2) = floor((2a + n) / 2n); 2a + n needs V + 1 + g + 1 + 1 = W + 2 bits.
         self.numerator.d.next =
-            (self.difference.q.val() << self.guard_shift.val()) + bit_cast_to::<Lanes<L, X>>(self.n_ahead.q.val());
+            (self.difference.q.val() << self.guard_shift.val()) + bit_cast_to::<Lanes<L, X>>(self.n_numerator.q.val());
         self.divider.high.next = bit_cast_to::<Lanes<L, T>>(self.numerator.q.val() >> self.quotient_bits.val());
         self.divider.low.next = bit_cast_to::<Lanes<L, W>>(self.numerator.q.val());
         self.divider.divisor.next = self.n_ahead.q.val() << 1;
         // (2a + n) - 2n D = 2 (a - n D) + n, so the remainder of a is half of what n leaves.
-        self.rem.d.next = (self.divider.remainder.val() - bit_cast_to::<Lanes<L, T>>(self.n_now.q.val())) >> 1;
+        self.rem.d.next = (self.divider.remainder.val() - bit_cast_to::<Lanes<L, T>>(self.n_rem.q.val())) >> 1;
         self.far.next = ((bit_cast_to::<Lanes<L, W>>(self.hi_now.q.val()) << self.guard.val()) | self.half.val())
             - bit_cast_to::<Lanes<L, W>>(self.rem.q.val());
-        self.start_ab_reg.enable.next = self.closing.q.val() == 1;
+        self.keeps_ab.d.next = self.closing.q.val() == 1;
+        self.keeps_ac.d.next = self.closing.q.val() == 2;
+        self.keeps_bc.d.next = self.closing.q.val() == 3;
+        self.starts_ab.d.next = self.keeps_ab.q.val();
+        self.starts_ac.d.next = self.keeps_ac.q.val();
+        self.starts_bc.d.next = self.keeps_bc.q.val();
+        self.step_ab_reg.enable.next = self.keeps_ab.q.val();
+        self.step_ab_reg.d.next = self.divider.quotient.val();
+        self.step_ac_reg.enable.next = self.keeps_ac.q.val();
+        self.step_ac_reg.d.next = self.divider.quotient.val();
+        self.step_bc_reg.enable.next = self.keeps_bc.q.val();
+        self.step_bc_reg.d.next = self.divider.quotient.val();
+        self.start_ab_reg.enable.next = self.starts_ab.q.val();
         self.start_ab_reg.d.next = self.far.val();
-        self.start_ac_reg.enable.next = self.closing.q.val() == 2;
+        self.start_ac_reg.enable.next = self.starts_ac.q.val();
         self.start_ac_reg.d.next = self.far.val();
-        self.start_bc_reg.enable.next = self.closing.q.val() == 3;
+        self.start_bc_reg.enable.next = self.starts_bc.q.val();
         self.start_bc_reg.d.next = self.far.val();
 
         self.begins.next = self.state.q.val() != EdgeState::Idle
@@ -253,6 +303,10 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             && self.steady.q.val()
             && !self.long_ahead.q.val();
         self.divider.start.next = self.begins.val();
+        self.begun.d.next = self.begins.val();
+        self.takes_hi.d.next = self.begun.q.val();
+        self.hi_now.enable.next = self.takes_hi.q.val();
+        self.hi_now.d.next = self.hi_ahead.q.val();
         self.finished.d.next = self.divider.done.val();
         self.fresh.d.next = true;
         self.settled.d.next = self.fresh.q.val();
@@ -267,7 +321,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         if self.begins.val() {
             self.running.d.next = true;
             self.n_now.d.next = self.n_ahead.q.val();
-            self.hi_now.d.next = self.hi_ahead.q.val();
         }
         if self.finished.q.val() {
             self.running.d.next = false;
@@ -283,7 +336,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             }
             if self.finished.q.val() {
                 self.closing.d.next = 1.into();
-                self.step_ab_reg.d.next = self.divider.quotient.val();
             }
         } else if self.state.q.val() == EdgeState::Second {
             if self.finished.q.val() || self.skips.val() {
@@ -291,7 +343,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             }
             if self.finished.q.val() {
                 self.closing.d.next = 2.into();
-                self.step_ac_reg.d.next = self.divider.quotient.val();
             }
         } else {
             if self.finished.q.val() || self.skips.val() {
@@ -299,7 +350,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             }
             if self.finished.q.val() {
                 self.closing.d.next = 3.into();
-                self.step_bc_reg.d.next = self.divider.quotient.val();
             }
         }
     }
@@ -309,4 +359,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg, ahead, fresh, settled, steady, lo_from, hi_from, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, closing, rem, divider, finished }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg, ahead, fresh, settled, steady, lo_from, hi_from, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, closing, rem, divider, finished, lo_pick, hi_pick, n_numerator, n_rem, begun, takes_hi, keeps_ab, keeps_ac, keeps_bc, starts_ab, starts_ac, starts_bc }

@@ -8,7 +8,7 @@
 //! One multiplier serves all components in turn; the divider does all components at once.
 //!
 //! | stage | registers |
-//! | p0, p1 | the lane, its data |
+//! | p0, near, p1 | the lane, the same a cycle later, its data |
 //! | p2    | the factors: a difference of corners, or a quotient; and a span |
 //! | p3    | three products, by 16 bits of the first factor each |
 //! | p4, p5 | their sum |
@@ -23,7 +23,7 @@
 //! | side, sweep, base_b | L x signed W | wrap when they do not fit: then no interior vertex exists |
 
 use crate::prelude::*;
-use crate::primitives::Divider;
+use crate::remesher::LaneDivider;
 
 /// What the unit is doing.
 #[derive(Copy, Clone, PartialEq, Eq, Debug, LogicState)]
@@ -66,7 +66,15 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     count: Register<U<6>>,
     issuing: Register<Bit>,
     finished: Register<Bit>,
-    /// `for_base`, `for_sweep` and the first round of the base vertex, a cycle later.
+    /// And one and two cycles later: the quotients are kept.
+    side_soon: Register<Bit>,
+    sweep_soon: Register<Bit>,
+    takes_side: Register<Bit>,
+    takes_sweep_quotient: Register<Bit>,
+    /// `for_base`, `for_sweep` and the first round of the base vertex, a cycle later; and two.
+    sums_soon: DataRegister<Bit>,
+    takes_soon: DataRegister<Bit>,
+    starts_soon: DataRegister<Bit>,
     sums_base: DataRegister<Bit>,
     takes_sweep: DataRegister<Bit>,
     starts_base: DataRegister<Bit>,
@@ -75,6 +83,10 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     p0_valid: Register<Bit>,
     p0_second: DataRegister<Bit>,
     p0_lane: DataRegister<U<5>>,
+    /// A cycle later, by way of a register.
+    near_valid: Register<Bit>,
+    near_second: DataRegister<Bit>,
+    near_lane: DataRegister<U<5>>,
     p1_valid: Register<Bit>,
     p1_second: DataRegister<Bit>,
     p1_lane: DataRegister<U<5>>,
@@ -108,6 +120,11 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     p6_first: DataRegister<WideS<P>>,
     p6_difference: DataRegister<WideS<P>>,
     p6_origin: DataRegister<S<W>>,
+    p7_valid: Register<Bit>,
+    p7_second: DataRegister<Bit>,
+    p7_lane: DataRegister<U<5>>,
+    p7_numerator: DataRegister<WideS<P>>,
+    p7_origin: DataRegister<S<W>>,
     /// The last lane of the round has been written.
     complete: Register<Bit>,
     high: DataRegister<Lanes<L, A>>,
@@ -118,14 +135,13 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     part_0: crate::primitives::Multiplier<17, T, 40>,
     part_1: crate::primitives::Multiplier<17, T, 40>,
     part_2: crate::primitives::Multiplier<17, T, 40>,
-    divider: Divider<L, W, A>,
+    divider: LaneDivider<L, W, A>,
     lane: Wire<U<5>>,
     second: Wire<Bit>,
     for_base: Wire<Bit>,
     for_sweep: Wire<Bit>,
     fb: Wire<S<W>>,
     fc: Wire<S<W>>,
-    numerator: Wire<WideS<P>>,
     guard_shift: Constant<U<6>>,
     guard: Constant<U<6>>,
     half: Constant<S<W>>,
@@ -163,6 +179,13 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             count: Register::default(),
             issuing: Register::default(),
             finished: Register::default(),
+            side_soon: Register::default(),
+            sweep_soon: Register::default(),
+            takes_side: Register::default(),
+            takes_sweep_quotient: Register::default(),
+            sums_soon: DataRegister::default(),
+            takes_soon: DataRegister::default(),
+            starts_soon: DataRegister::default(),
             sums_base: DataRegister::default(),
             takes_sweep: DataRegister::default(),
             starts_base: DataRegister::default(),
@@ -170,6 +193,9 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             p0_valid: Register::default(),
             p0_second: DataRegister::default(),
             p0_lane: DataRegister::default(),
+            near_valid: Register::default(),
+            near_second: DataRegister::default(),
+            near_lane: DataRegister::default(),
             p1_valid: Register::default(),
             p1_second: DataRegister::default(),
             p1_lane: DataRegister::default(),
@@ -203,6 +229,11 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             p6_first: DataRegister::default(),
             p6_difference: DataRegister::default(),
             p6_origin: DataRegister::default(),
+            p7_valid: Register::default(),
+            p7_second: DataRegister::default(),
+            p7_lane: DataRegister::default(),
+            p7_numerator: DataRegister::default(),
+            p7_origin: DataRegister::default(),
             complete: Register::default(),
             high: DataRegister::default(),
             low: DataRegister::default(),
@@ -212,14 +243,13 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             part_0: crate::primitives::Multiplier::default(),
             part_1: crate::primitives::Multiplier::default(),
             part_2: crate::primitives::Multiplier::default(),
-            divider: Divider::default(),
+            divider: LaneDivider::default(),
             lane: Wire::default(),
             second: Wire::default(),
             for_base: Wire::default(),
             for_sweep: Wire::default(),
             fb: Wire::default(),
             fc: Wire::default(),
-            numerator: Wire::default(),
             guard_shift: Constant::new(U::new((W - V) as i64)),
             guard: Constant::new(U::new((W - V - 1) as i64)),
             half: Constant::new(S::new(if W == V + 1 { 0 } else { 1 << (W - V - 2) })),
@@ -236,6 +266,10 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, sums_soon, takes_soon, starts_soon);
+        dff_setup!(self, clock, p7_valid, p7_second, p7_lane, p7_numerator, p7_origin);
+        dff_setup!(self, clock, near_valid, near_second, near_lane);
+        dff_setup!(self, clock, side_soon, sweep_soon, takes_side, takes_sweep_quotient);
         dff_setup!(
             self,
             clock,
@@ -283,9 +317,12 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
         self.for_base.next =
             self.state.q.val() == InteriorState::SweepQuotient || self.state.q.val() == InteriorState::BaseProducts;
 
-        self.sums_base.d.next = self.for_base.val();
-        self.takes_sweep.d.next = self.for_sweep.val();
-        self.starts_base.d.next = self.state.q.val() == InteriorState::SweepQuotient;
+        self.sums_soon.d.next = self.for_base.val();
+        self.takes_soon.d.next = self.for_sweep.val();
+        self.starts_soon.d.next = self.state.q.val() == InteriorState::SweepQuotient;
+        self.sums_base.d.next = self.sums_soon.q.val();
+        self.takes_sweep.d.next = self.takes_soon.q.val();
+        self.starts_base.d.next = self.starts_soon.q.val();
 
         // p0: which lane.
         if self.for_base.val() {
@@ -299,17 +336,21 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
         self.p0_second.d.next = self.second.val();
         self.p0_lane.d.next = self.lane.val();
 
+        self.near_valid.d.next = self.p0_valid.q.val();
+        self.near_second.d.next = self.p0_second.q.val();
+        self.near_lane.d.next = self.p0_lane.q.val();
+
         // p1: its data.
-        self.p1_valid.d.next = self.p0_valid.q.val();
-        self.p1_second.d.next = self.p0_second.q.val();
-        self.p1_lane.d.next = self.p0_lane.q.val();
-        self.p1_a.d.next = self.corner_a.val().get_bit(self.p0_lane.q.val().index());
-        self.p1_b.d.next = self.corner_b.val().get_bit(self.p0_lane.q.val().index());
-        self.p1_c.d.next = self.corner_c.val().get_bit(self.p0_lane.q.val().index());
+        self.p1_valid.d.next = self.near_valid.q.val();
+        self.p1_second.d.next = self.near_second.q.val();
+        self.p1_lane.d.next = self.near_lane.q.val();
+        self.p1_a.d.next = self.corner_a.val().get_bit(self.near_lane.q.val().index());
+        self.p1_b.d.next = self.corner_b.val().get_bit(self.near_lane.q.val().index());
+        self.p1_c.d.next = self.corner_c.val().get_bit(self.near_lane.q.val().index());
         if self.starts_base.q.val() {
-            self.p1_quotient.d.next = self.side_reg.q.val().get_bit(self.p0_lane.q.val().index());
+            self.p1_quotient.d.next = self.side_reg.q.val().get_bit(self.near_lane.q.val().index());
         } else {
-            self.p1_quotient.d.next = self.sweep_reg.q.val().get_bit(self.p0_lane.q.val().index());
+            self.p1_quotient.d.next = self.sweep_reg.q.val().get_bit(self.near_lane.q.val().index());
         }
         if self.issuing.q.val() {
             self.count.d.next = self.count.q.val() + 1;
@@ -389,33 +430,47 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
         self.p6_lane.d.next = self.p5_lane.q.val();
 
         // p7: 2a + area2 of the division by 2 area2: V + 1 + N bits of product, one more for the difference, g + 1 of shift.
-        self.numerator.next =
+        self.p7_numerator.d.next =
             (self.p6_difference.q.val() << self.guard_shift.val()) + bit_cast_to::<WideS<P>>(self.area2.val());
-        if self.p6_valid.q.val() {
+        self.p7_origin.d.next = self.p6_origin.q.val();
+        self.p7_valid.d.next = self.p6_valid.q.val();
+        self.p7_second.d.next = self.p6_second.q.val();
+        self.p7_lane.d.next = self.p6_lane.q.val();
+
+        // To its lane.
+        if self.p7_valid.q.val() {
             if self.sums_base.q.val() {
                 self.base_reg.d.next =
-                    self.base_reg.q.val().replace_bit(self.p6_lane.q.val().index(), self.p6_origin.q.val());
-            } else if self.p6_second.q.val() {
+                    self.base_reg.q.val().replace_bit(self.p7_lane.q.val().index(), self.p7_origin.q.val());
+            } else if self.p7_second.q.val() {
                 self.high.d.next = self.high.q.val().replace_bit(
-                    self.p6_lane.q.val().index(),
-                    bit_cast_to::<S<A>>(self.numerator.val() >> self.quotient_bits.val()),
+                    self.p7_lane.q.val().index(),
+                    bit_cast_to::<S<A>>(self.p7_numerator.q.val() >> self.quotient_bits.val()),
                 );
                 self.low.d.next = self
                     .low
                     .q
                     .val()
-                    .replace_bit(self.p6_lane.q.val().index(), bit_cast_to::<S<W>>(self.numerator.val()));
+                    .replace_bit(self.p7_lane.q.val().index(), bit_cast_to::<S<W>>(self.p7_numerator.q.val()));
             }
         }
-        self.complete.d.next = self.p6_valid.q.val()
-            && self.p6_lane.q.val() == self.last_lane.val()
-            && (self.sums_base.q.val() || self.p6_second.q.val());
+        self.complete.d.next = self.p7_valid.q.val()
+            && self.p7_lane.q.val() == self.last_lane.val()
+            && (self.sums_base.q.val() || self.p7_second.q.val());
 
         self.divider.high.next = self.high.q.val();
         self.divider.low.next = self.low.q.val();
         self.divider.divisor.next = self.area2.val() << 1;
         self.divider.start.next = false;
         self.finished.d.next = self.divider.done.val();
+        self.side_soon.d.next = false;
+        self.sweep_soon.d.next = false;
+        self.takes_side.d.next = self.side_soon.q.val();
+        self.takes_sweep_quotient.d.next = self.sweep_soon.q.val();
+        self.side_reg.enable.next = self.takes_side.q.val();
+        self.side_reg.d.next = self.divider.quotient.val();
+        self.sweep_reg.enable.next = self.takes_sweep_quotient.q.val();
+        self.sweep_reg.d.next = self.divider.quotient.val();
         self.has_area.d.next = self.area2.val() != 0;
         if self.state.q.val() == InteriorState::Idle {
             self.count.d.next = 0.into();
@@ -432,7 +487,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             }
         } else if self.state.q.val() == InteriorState::SideQuotient {
             if self.finished.q.val() {
-                self.side_reg.d.next = self.divider.quotient.val();
+                self.side_soon.d.next = true;
                 // 2 L + 8 cycles of products are over before the W + 2 of the division: the numerators are there.
                 self.divider.start.next = true;
                 self.state.d.next = InteriorState::SweepQuotient;
@@ -441,7 +496,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             }
         } else if self.state.q.val() == InteriorState::SweepQuotient {
             if self.finished.q.val() {
-                self.sweep_reg.d.next = self.divider.quotient.val();
+                self.sweep_soon.d.next = true;
                 self.state.d.next = InteriorState::Idle;
                 if self.roof.val() {
                     self.state.d.next = InteriorState::BaseProducts;
@@ -461,4 +516,4 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider }
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider, side_soon, sweep_soon, takes_side, takes_sweep_quotient, near_valid, near_second, near_lane, p7_valid, p7_second, p7_lane, p7_numerator, p7_origin, sums_soon, takes_soon, starts_soon }

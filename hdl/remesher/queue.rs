@@ -41,6 +41,10 @@ pub struct StepQueue<const L: usize, const V: usize> {
     /// The memories' output registers hold a beat.
     held: Register<Bit>,
     has_room: Register<Bit>,
+    /// The beat on its way to the memories, beside its vertices, and its place.
+    write_valid: Register<Bit>,
+    write_codes: DataRegister<U<8>>,
+    next_place: Register<U<4>>,
     codes: Ram<U<8>, 4>,
     left_vertices: Ram<Lanes<L, V>, 4>,
     right_vertices: Ram<Lanes<L, V>, 4>,
@@ -79,6 +83,9 @@ impl<const L: usize, const V: usize> Default for StepQueue<L, V> {
             read_place: Register::default(),
             held: Register::default(),
             has_room: Register::default(),
+            write_valid: Register::default(),
+            write_codes: DataRegister::default(),
+            next_place: Register::default(),
             codes: Ram::new(Self::DEPTH),
             left_vertices: Ram::new(Self::DEPTH),
             right_vertices: Ram::new(Self::DEPTH),
@@ -90,26 +97,31 @@ impl<const L: usize, const V: usize> Default for StepQueue<L, V> {
 impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, write_valid, write_codes, next_place);
         dff_setup!(self, clock, waiting, write_place, read_place, held, has_room);
         clock!(self, clock, codes, left_vertices, right_vertices);
         self.room.next = self.has_room.q.val();
-        self.has_room.d.next = self.waiting.q.val() < 8;
-        self.codes.write_enable.next = self.in_valid.val();
-        self.codes.write_address.next = self.write_place.q.val();
-        self.codes.write_data.next = (bit_cast_to::<U<8>>(self.in_kind.val()) << 6)
+        self.has_room.d.next = self.waiting.q.val() < 7;
+        // The place of the next beat goes the same way: the wire to the memories takes a cycle.
+        self.write_place.d.next = self.next_place.q.val();
+        self.write_valid.d.next = self.in_valid.val();
+        self.write_codes.d.next = (bit_cast_to::<U<8>>(self.in_kind.val()) << 6)
             | (bit_cast_to::<U<8>>(self.in_left.val()) << 4)
             | (bit_cast_to::<U<8>>(self.in_right.val()) << 2)
             | (bit_cast_to::<U<8>>(self.in_swap.val()) << 1)
             | bit_cast_to::<U<8>>(self.in_last.val());
-        self.left_vertices.write_enable.next = self.in_valid.val();
+        if self.in_valid.val() {
+            self.next_place.d.next = self.next_place.q.val() + 1;
+        }
+        self.codes.write_enable.next = self.write_valid.q.val();
+        self.codes.write_address.next = self.write_place.q.val();
+        self.codes.write_data.next = self.write_codes.q.val();
+        self.left_vertices.write_enable.next = self.write_valid.q.val();
         self.left_vertices.write_address.next = self.write_place.q.val();
         self.left_vertices.write_data.next = self.in_left_vertex.val();
-        self.right_vertices.write_enable.next = self.in_valid.val();
+        self.right_vertices.write_enable.next = self.write_valid.q.val();
         self.right_vertices.write_address.next = self.write_place.q.val();
         self.right_vertices.write_data.next = self.in_right_vertex.val();
-        if self.in_valid.val() {
-            self.write_place.d.next = self.write_place.q.val() + 1;
-        }
 
         self.takes.next = self.waiting.q.val() != 0 && (!self.held.q.val() || self.out_ready.val());
         self.codes.enable.next = self.takes.val();
@@ -124,9 +136,9 @@ impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
         } else if self.out_ready.val() {
             self.held.d.next = false;
         }
-        if self.in_valid.val() && !self.takes.val() {
+        if self.write_valid.q.val() && !self.takes.val() {
             self.waiting.d.next = self.waiting.q.val() + 1;
-        } else if !self.in_valid.val() && self.takes.val() {
+        } else if !self.write_valid.q.val() && self.takes.val() {
             self.waiting.d.next = self.waiting.q.val() - 1;
         }
         self.out_valid.next = self.held.q.val();
@@ -144,4 +156,4 @@ impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
     }
 }
 
-watched! { [const L: usize, const V: usize] StepQueue<L, V>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready; codes, left_vertices, right_vertices; waiting, write_place, read_place, held, has_room, codes, left_vertices, right_vertices }
+watched! { [const L: usize, const V: usize] StepQueue<L, V>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready; codes, left_vertices, right_vertices; waiting, write_place, read_place, held, has_room, codes, left_vertices, right_vertices, write_valid, write_codes, next_place }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vertex data of the sweep: five walkers that step by difference vertices, one micro-operation a cycle, in five stages
+//! Vertex data of the sweep: five walkers that step by difference vertices, one micro-operation a cycle, in six stages
 //! that never stall (the queue behind has room for all of them).
 //!
 //! primary (AB), base (row of the primary edge rounded to the grid), left and right column, upper edge. A walker from the
@@ -8,14 +8,15 @@
 //! Accumulators have W bits and wrap: a sum is right whenever the true vertex fits.
 //!
 //! | stage | registers |
-//! | s1    | controls decoded from the micro-operation; the record is copied behind a `LOAD` here |
+//! | s0    | controls decoded from the micro-operation |
+//! | s1    | the same on their way to the lanes; the record is copied behind a `LOAD` here |
 //! | s2    | where a walker starts (one bus for all), and the base walker's step: sweep, or sweep + side, or sweep - side |
 //! | s3    | what each walker adds: a step, its complement (and one more), or its start |
 //! | s4    | the accumulators: one addition each |
 //! | sent  | the vertices of the beat |
 //!
-//! | port     | format       |   Latency 5, interval 1
-//! | corner_*, step_*, start_*, side, sweep, base_b | of the record, standing still until `record_ready` |
+//! | port     | format       |   Latency 6, interval 1
+//! | corner_*, step_*, start_*, side, sweep, base_b | of the record, standing still until the cycle behind `record_ready` |
 //! | op_*     | -            | see [`Sweep`](crate::remesher::Sweep): 4 micro-operations between two beats and a `LOAD` |
 //! | out_*    | -            | beats   Golden: models::remesher (sweep)   Error 1/2 unit of the vertex format, by the rounding
 //!
@@ -60,7 +61,7 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     pub op_keep: Input<Bit>,
     pub op_swap: Input<Bit>,
     pub op_last: Input<Bit>,
-    /// The record has been copied.
+    /// The record is copied in the next cycle.
     pub record_ready: Output<Bit>,
     pub out_valid: Output<Bit>,
     pub out_kind: Output<U<2>>,
@@ -69,7 +70,7 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     pub out_keep: Output<Bit>,
     pub out_swap: Output<Bit>,
     pub out_last: Output<Bit>,
-    /// One cycle behind the other outputs, which go through the commands meanwhile.
+    /// Two cycles behind the other outputs, which go through the commands and to the queue meanwhile.
     pub out_left_vertex: Output<Lanes<L, V>>,
     pub out_right_vertex: Output<Lanes<L, V>>,
     // The record.
@@ -89,8 +90,43 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     hi_ac: DataRegister<Bit>,
     hi_bc: DataRegister<Bit>,
     // Decoded.
+    s0_load: DataRegister<Bit>,
+    s0_bus: DataRegister<U<3>>,
+    s0_to_primary: DataRegister<Bit>,
+    s0_to_edge: DataRegister<Bit>,
+    s0_to_right: DataRegister<Bit>,
+    s0_rung: DataRegister<Bit>,
+    s0_primary_minus: DataRegister<Bit>,
+    s0_edge_moves: DataRegister<Bit>,
+    s0_edge_minus: DataRegister<Bit>,
+    s0_edge_bc: DataRegister<Bit>,
+    s0_left_moves: DataRegister<Bit>,
+    s0_from_base: DataRegister<Bit>,
+    s0_base_takes: DataRegister<Bit>,
+    s0_right_side: DataRegister<Bit>,
+    s0_right_edge: DataRegister<Bit>,
+    s0_right_ac: DataRegister<Bit>,
+    s0_right_minus: DataRegister<Bit>,
+    s0_climbs: DataRegister<Bit>,
+    s0_side_minus: DataRegister<Bit>,
+    s0_left_from: DataRegister<U<3>>,
+    s0_right_from: DataRegister<U<3>>,
+    s0_valid: Register<Bit>,
+    s0_kind: DataRegister<U<2>>,
+    s0_left: DataRegister<U<2>>,
+    s0_right: DataRegister<U<2>>,
+    s0_keep: DataRegister<Bit>,
+    s0_swap: DataRegister<Bit>,
+    s0_last: DataRegister<Bit>,
+    // The same, on the way to the lanes.
     s1_load: DataRegister<Bit>,
-    s1_bus: DataRegister<U<3>>,
+    s1_bus_a: DataRegister<Bit>,
+    s1_bus_b: DataRegister<Bit>,
+    s1_bus_c: DataRegister<Bit>,
+    s1_bus_ab: DataRegister<Bit>,
+    s1_bus_ac: DataRegister<Bit>,
+    s1_bus_bc: DataRegister<Bit>,
+    s1_bus_origin: DataRegister<Bit>,
     s1_to_primary: DataRegister<Bit>,
     s1_to_edge: DataRegister<Bit>,
     s1_to_right: DataRegister<Bit>,
@@ -158,8 +194,19 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     s3_to_right: DataRegister<Bit>,
     s3_from_base: DataRegister<Bit>,
     s3_base_takes: DataRegister<Bit>,
-    s3_left_from: DataRegister<U<3>>,
-    s3_right_from: DataRegister<U<3>>,
+    s3_left_from_a: DataRegister<Bit>,
+    s3_left_from_b: DataRegister<Bit>,
+    s3_left_from_c: DataRegister<Bit>,
+    s3_left_from_walker: DataRegister<Bit>,
+    s3_left_from_edge: DataRegister<Bit>,
+    s3_left_sent: DataRegister<Bit>,
+    s3_right_from_a: DataRegister<Bit>,
+    s3_right_from_b: DataRegister<Bit>,
+    s3_right_from_c: DataRegister<Bit>,
+    s3_right_from_walker: DataRegister<Bit>,
+    s3_right_from_edge: DataRegister<Bit>,
+    s3_right_from_primary: DataRegister<Bit>,
+    s3_right_sent: DataRegister<Bit>,
     s3_valid: Register<Bit>,
     s3_kind: DataRegister<U<2>>,
     s3_left: DataRegister<U<2>>,
@@ -175,21 +222,43 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     edge_walker: DataRegister<Lanes<L, W>>,
     edge_before: DataRegister<Lanes<L, V>>,
     s4_base_takes: DataRegister<Bit>,
-    s4_left_from: DataRegister<U<3>>,
-    s4_right_from: DataRegister<U<3>>,
-    s4_valid: Register<Bit>,
-    s4_kind: DataRegister<U<2>>,
-    s4_left: DataRegister<U<2>>,
-    s4_right: DataRegister<U<2>>,
-    s4_keep: DataRegister<Bit>,
-    s4_swap: DataRegister<Bit>,
-    s4_last: DataRegister<Bit>,
+    s4_left_from_a: DataRegister<Bit>,
+    s4_left_from_b: DataRegister<Bit>,
+    s4_left_from_c: DataRegister<Bit>,
+    s4_left_from_walker: DataRegister<Bit>,
+    s4_left_from_edge: DataRegister<Bit>,
+    s4_left_sent: DataRegister<Bit>,
+    s4_right_from_a: DataRegister<Bit>,
+    s4_right_from_b: DataRegister<Bit>,
+    s4_right_from_c: DataRegister<Bit>,
+    s4_right_from_walker: DataRegister<Bit>,
+    s4_right_from_edge: DataRegister<Bit>,
+    s4_right_from_primary: DataRegister<Bit>,
+    s4_right_sent: DataRegister<Bit>,
     // The vertices sent.
     sent_left_vertex: DataRegister<Lanes<L, V>>,
     sent_right_vertex: DataRegister<Lanes<L, V>>,
     beat: Wire<Bit>,
     rung: Wire<Bit>,
     start: Wire<Lanes<L, W>>,
+    on_a: Wire<Lanes<L, W>>,
+    on_b: Wire<Lanes<L, W>>,
+    on_c: Wire<Lanes<L, W>>,
+    on_ab: Wire<Lanes<L, W>>,
+    on_ac: Wire<Lanes<L, W>>,
+    on_bc: Wire<Lanes<L, W>>,
+    on_origin: Wire<Lanes<L, W>>,
+    left_on_a: Wire<Lanes<L, V>>,
+    left_on_b: Wire<Lanes<L, V>>,
+    left_on_c: Wire<Lanes<L, V>>,
+    left_on_walker: Wire<Lanes<L, V>>,
+    left_on_edge: Wire<Lanes<L, V>>,
+    right_on_a: Wire<Lanes<L, V>>,
+    right_on_b: Wire<Lanes<L, V>>,
+    right_on_c: Wire<Lanes<L, V>>,
+    right_on_walker: Wire<Lanes<L, V>>,
+    right_on_edge: Wire<Lanes<L, V>>,
+    right_on_primary: Wire<Lanes<L, V>>,
     side_step: Wire<Lanes<L, W>>,
     side_carry: Wire<Lanes<L, X>>,
     edge_along: Wire<Lanes<L, W>>,
@@ -206,6 +275,9 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     one: Constant<Lanes<L, X>>,
     zero: Constant<Lanes<L, X>>,
     none: Constant<Lanes<L, W>>,
+    all: Constant<Lanes<L, W>>,
+    never: Constant<Lanes<L, V>>,
+    always: Constant<Lanes<L, V>>,
 }
 
 impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for Walkers<L, V, W, X> {
@@ -269,8 +341,42 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             hi_ab: DataRegister::default(),
             hi_ac: DataRegister::default(),
             hi_bc: DataRegister::default(),
+            s0_load: DataRegister::default(),
+            s0_bus: DataRegister::default(),
+            s0_to_primary: DataRegister::default(),
+            s0_to_edge: DataRegister::default(),
+            s0_to_right: DataRegister::default(),
+            s0_rung: DataRegister::default(),
+            s0_primary_minus: DataRegister::default(),
+            s0_edge_moves: DataRegister::default(),
+            s0_edge_minus: DataRegister::default(),
+            s0_edge_bc: DataRegister::default(),
+            s0_left_moves: DataRegister::default(),
+            s0_from_base: DataRegister::default(),
+            s0_base_takes: DataRegister::default(),
+            s0_right_side: DataRegister::default(),
+            s0_right_edge: DataRegister::default(),
+            s0_right_ac: DataRegister::default(),
+            s0_right_minus: DataRegister::default(),
+            s0_climbs: DataRegister::default(),
+            s0_side_minus: DataRegister::default(),
+            s0_left_from: DataRegister::default(),
+            s0_right_from: DataRegister::default(),
+            s0_valid: Register::default(),
+            s0_kind: DataRegister::default(),
+            s0_left: DataRegister::default(),
+            s0_right: DataRegister::default(),
+            s0_keep: DataRegister::default(),
+            s0_swap: DataRegister::default(),
+            s0_last: DataRegister::default(),
             s1_load: DataRegister::default(),
-            s1_bus: DataRegister::default(),
+            s1_bus_a: DataRegister::default(),
+            s1_bus_b: DataRegister::default(),
+            s1_bus_c: DataRegister::default(),
+            s1_bus_ab: DataRegister::default(),
+            s1_bus_ac: DataRegister::default(),
+            s1_bus_bc: DataRegister::default(),
+            s1_bus_origin: DataRegister::default(),
             s1_to_primary: DataRegister::default(),
             s1_to_edge: DataRegister::default(),
             s1_to_right: DataRegister::default(),
@@ -336,8 +442,19 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             s3_to_right: DataRegister::default(),
             s3_from_base: DataRegister::default(),
             s3_base_takes: DataRegister::default(),
-            s3_left_from: DataRegister::default(),
-            s3_right_from: DataRegister::default(),
+            s3_left_from_a: DataRegister::default(),
+            s3_left_from_b: DataRegister::default(),
+            s3_left_from_c: DataRegister::default(),
+            s3_left_from_walker: DataRegister::default(),
+            s3_left_from_edge: DataRegister::default(),
+            s3_left_sent: DataRegister::default(),
+            s3_right_from_a: DataRegister::default(),
+            s3_right_from_b: DataRegister::default(),
+            s3_right_from_c: DataRegister::default(),
+            s3_right_from_walker: DataRegister::default(),
+            s3_right_from_edge: DataRegister::default(),
+            s3_right_from_primary: DataRegister::default(),
+            s3_right_sent: DataRegister::default(),
             s3_valid: Register::default(),
             s3_kind: DataRegister::default(),
             s3_left: DataRegister::default(),
@@ -352,20 +469,42 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             edge_walker: DataRegister::default(),
             edge_before: DataRegister::default(),
             s4_base_takes: DataRegister::default(),
-            s4_left_from: DataRegister::default(),
-            s4_right_from: DataRegister::default(),
-            s4_valid: Register::default(),
-            s4_kind: DataRegister::default(),
-            s4_left: DataRegister::default(),
-            s4_right: DataRegister::default(),
-            s4_keep: DataRegister::default(),
-            s4_swap: DataRegister::default(),
-            s4_last: DataRegister::default(),
+            s4_left_from_a: DataRegister::default(),
+            s4_left_from_b: DataRegister::default(),
+            s4_left_from_c: DataRegister::default(),
+            s4_left_from_walker: DataRegister::default(),
+            s4_left_from_edge: DataRegister::default(),
+            s4_left_sent: DataRegister::default(),
+            s4_right_from_a: DataRegister::default(),
+            s4_right_from_b: DataRegister::default(),
+            s4_right_from_c: DataRegister::default(),
+            s4_right_from_walker: DataRegister::default(),
+            s4_right_from_edge: DataRegister::default(),
+            s4_right_from_primary: DataRegister::default(),
+            s4_right_sent: DataRegister::default(),
             sent_left_vertex: DataRegister::default(),
             sent_right_vertex: DataRegister::default(),
             beat: Wire::default(),
             rung: Wire::default(),
             start: Wire::default(),
+            on_a: Wire::default(),
+            on_b: Wire::default(),
+            on_c: Wire::default(),
+            on_ab: Wire::default(),
+            on_ac: Wire::default(),
+            on_bc: Wire::default(),
+            on_origin: Wire::default(),
+            left_on_a: Wire::default(),
+            left_on_b: Wire::default(),
+            left_on_c: Wire::default(),
+            left_on_walker: Wire::default(),
+            left_on_edge: Wire::default(),
+            right_on_a: Wire::default(),
+            right_on_b: Wire::default(),
+            right_on_c: Wire::default(),
+            right_on_walker: Wire::default(),
+            right_on_edge: Wire::default(),
+            right_on_primary: Wire::default(),
             side_step: Wire::default(),
             side_carry: Wire::default(),
             edge_along: Wire::default(),
@@ -382,6 +521,9 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             one: Constant::new(Lanes::new([1; L])),
             zero: Constant::new(Lanes::new([0; L])),
             none: Constant::new(Lanes::new([0; L])),
+            all: Constant::new(Lanes::new([-1; L])),
+            never: Constant::new(Lanes::new([0; L])),
+            always: Constant::new(Lanes::new([-1; L])),
         }
     }
 }
@@ -389,12 +531,20 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
 impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for Walkers<L, V, W, X> {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b);
+        dff_setup!(self, clock, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent);
+        dff_setup!(self, clock, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b);
+        dff_setup!(self, clock, s3_right_from_c, s3_right_from_walker, s3_right_from_edge, s3_right_from_primary, s3_right_sent);
+        dff_setup!(self, clock, s1_bus_a, s1_bus_b, s1_bus_c, s1_bus_ab, s1_bus_ac, s1_bus_bc, s1_bus_origin);
+        dff_setup!(self, clock, s0_load, s0_bus, s0_to_primary, s0_to_edge, s0_to_right, s0_rung, s0_primary_minus, s0_edge_moves);
+        dff_setup!(self, clock, s0_edge_minus, s0_edge_bc, s0_left_moves, s0_from_base, s0_base_takes, s0_right_side, s0_right_edge, s0_right_ac);
+        dff_setup!(self, clock, s0_right_minus, s0_climbs, s0_side_minus, s0_left_from, s0_right_from, s0_valid, s0_kind, s0_left);
+        dff_setup!(self, clock, s0_right, s0_keep, s0_swap, s0_last);
         dff_setup!(self, clock, va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac);
         dff_setup!(self, clock, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load);
         dff_setup!(
             self,
             clock,
-            s1_bus,
             s1_to_primary,
             s1_to_edge,
             s1_to_right,
@@ -460,8 +610,6 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s3_to_right,
             s3_from_base,
             s3_base_takes,
-            s3_left_from,
-            s3_right_from,
             s3_valid,
             s3_kind
         );
@@ -472,23 +620,19 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             right_walker,
             edge_walker,
             edge_before,
-            s4_base_takes,
-            s4_left_from,
-            s4_right_from,
-            s4_valid,
-            s4_kind
+            s4_base_takes
         );
-        dff_setup!(self, clock, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex);
-        self.out_valid.next = self.s4_valid.q.val();
-        self.out_kind.next = self.s4_kind.q.val();
-        self.out_left.next = self.s4_left.q.val();
-        self.out_right.next = self.s4_right.q.val();
-        self.out_keep.next = self.s4_keep.q.val();
-        self.out_swap.next = self.s4_swap.q.val();
-        self.out_last.next = self.s4_last.q.val();
+        dff_setup!(self, clock, sent_left_vertex, sent_right_vertex);
+        self.out_valid.next = self.s3_valid.q.val();
+        self.out_kind.next = self.s3_kind.q.val();
+        self.out_left.next = self.s3_left.q.val();
+        self.out_right.next = self.s3_right.q.val();
+        self.out_keep.next = self.s3_keep.q.val();
+        self.out_swap.next = self.s3_swap.q.val();
+        self.out_last.next = self.s3_last.q.val();
         self.out_left_vertex.next = self.sent_left_vertex.q.val();
         self.out_right_vertex.next = self.sent_right_vertex.q.val();
-        self.record_ready.next = self.s1_load.q.val();
+        self.record_ready.next = self.s0_load.q.val();
 
         // The record. Directions are needed a stage earlier than the rest.
         self.hi_ab.enable.next = self.op_valid.val() && self.op_code.val() == 4;
@@ -522,147 +666,206 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.origin_b.enable.next = self.s1_load.q.val();
         self.origin_b.d.next = self.base_b.val();
 
-        // s1: what the micro-operation asks of each walker.
+        // s0: what the micro-operation asks of each walker.
         self.beat.next = self.op_valid.val() && self.op_code.val() < 4;
         self.rung.next = self.beat.val() && (self.op_code.val() == 1 || self.op_code.val() == 2);
-        self.s1_load.d.next = self.op_valid.val() && self.op_code.val() == 4;
-        self.s1_rung.d.next = self.rung.val();
-        self.s1_primary_minus.d.next = self.hi_ab.q.val() != self.op_second.val();
-        self.s1_climbs.d.next = self.op_climbs.val();
-        self.s1_side_minus.d.next = self.op_falls.val();
-        self.s1_to_primary.d.next = self.op_valid.val() && self.op_code.val() == 6;
-        self.s1_to_edge.d.next =
+        self.s0_load.d.next = self.op_valid.val() && self.op_code.val() == 4;
+        self.s0_rung.d.next = self.rung.val();
+        self.s0_primary_minus.d.next = self.hi_ab.q.val() != self.op_second.val();
+        self.s0_climbs.d.next = self.op_climbs.val();
+        self.s0_side_minus.d.next = self.op_falls.val();
+        self.s0_to_primary.d.next = self.op_valid.val() && self.op_code.val() == 6;
+        self.s0_to_edge.d.next =
             (self.op_valid.val() && self.op_code.val() == 7) || (self.beat.val() && self.op_turn.val());
-        self.s1_to_right.d.next =
+        self.s0_to_right.d.next =
             (self.op_valid.val() && self.op_code.val() == 5) || (self.rung.val() && self.op_column_edge.val());
-        self.s1_from_base.d.next = self.rung.val() && !self.op_column_edge.val();
+        self.s0_from_base.d.next = self.rung.val() && !self.op_column_edge.val();
         // The base walker follows the right one.
-        self.s1_base_takes.d.next = (self.op_valid.val() && self.op_code.val() == 5) || self.rung.val();
-        self.s1_edge_moves.d.next = self.beat.val() && self.op_advance.val() && !self.op_turn.val();
-        self.s1_edge_bc.d.next = self.op_on_bc.val();
-        self.s1_edge_minus.d.next = self.hi_ac.q.val();
+        self.s0_base_takes.d.next = (self.op_valid.val() && self.op_code.val() == 5) || self.rung.val();
+        self.s0_edge_moves.d.next = self.beat.val() && self.op_advance.val() && !self.op_turn.val();
+        self.s0_edge_bc.d.next = self.op_on_bc.val();
+        self.s0_edge_minus.d.next = self.hi_ac.q.val();
         if self.op_on_bc.val() {
             // From C where the sub-triangle starts at A.
-            self.s1_edge_minus.d.next = self.hi_bc.q.val() == self.op_second.val();
+            self.s0_edge_minus.d.next = self.hi_bc.q.val() == self.op_second.val();
         }
-        self.s1_left_moves.d.next = self.beat.val() && !self.rung.val() && self.op_left.val() == 1;
-        self.s1_right_side.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 1;
-        self.s1_right_edge.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 2;
-        self.s1_right_ac.d.next = self.op_second.val();
-        self.s1_right_minus.d.next = self.hi_bc.q.val();
+        self.s0_left_moves.d.next = self.beat.val() && !self.rung.val() && self.op_left.val() == 1;
+        self.s0_right_side.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 1;
+        self.s0_right_edge.d.next = self.beat.val() && !self.rung.val() && self.op_right.val() == 2;
+        self.s0_right_ac.d.next = self.op_second.val();
+        self.s0_right_minus.d.next = self.hi_bc.q.val();
         if self.op_second.val() {
-            self.s1_right_minus.d.next = self.hi_ac.q.val();
+            self.s0_right_minus.d.next = self.hi_ac.q.val();
         }
         if self.rung.val() {
-            self.s1_right_minus.d.next = self.op_second.val();
+            self.s0_right_minus.d.next = self.op_second.val();
         }
         // The bus: 0 A, 1 B, 2 C, 3 hi end of AB, 4 of AC, 5 of BC, 6 base vertex of B. A corner stands for a lo end.
         if self.op_code.val() == 5 {
-            self.s1_bus.d.next = 0.into();
+            self.s0_bus.d.next = 0.into();
             if self.op_second.val() {
-                self.s1_bus.d.next = 6.into();
+                self.s0_bus.d.next = 6.into();
             }
         } else if self.op_code.val() == 6 {
             if self.hi_ab.q.val() != self.op_second.val() {
-                self.s1_bus.d.next = 3.into();
+                self.s0_bus.d.next = 3.into();
             } else {
-                self.s1_bus.d.next = 0.into();
+                self.s0_bus.d.next = 0.into();
                 if self.op_second.val() {
-                    self.s1_bus.d.next = 1.into();
+                    self.s0_bus.d.next = 1.into();
                 }
             }
         } else if self.op_code.val() == 7 {
             if self.op_second.val() {
-                self.s1_bus.d.next = 1.into();
+                self.s0_bus.d.next = 1.into();
                 if self.hi_bc.q.val() {
-                    self.s1_bus.d.next = 5.into();
+                    self.s0_bus.d.next = 5.into();
                 }
             } else {
-                self.s1_bus.d.next = 0.into();
+                self.s0_bus.d.next = 0.into();
                 if self.hi_ac.q.val() {
-                    self.s1_bus.d.next = 4.into();
+                    self.s0_bus.d.next = 4.into();
                 }
             }
         } else if self.op_turn.val() {
-            self.s1_bus.d.next = 2.into();
+            self.s0_bus.d.next = 2.into();
             if !self.hi_bc.q.val() {
-                self.s1_bus.d.next = 5.into();
+                self.s0_bus.d.next = 5.into();
             }
         } else if self.op_second.val() {
-            self.s1_bus.d.next = 0.into();
+            self.s0_bus.d.next = 0.into();
             if self.hi_ac.q.val() {
-                self.s1_bus.d.next = 4.into();
+                self.s0_bus.d.next = 4.into();
             }
         } else {
-            self.s1_bus.d.next = 1.into();
+            self.s0_bus.d.next = 1.into();
             if self.hi_bc.q.val() {
-                self.s1_bus.d.next = 5.into();
+                self.s0_bus.d.next = 5.into();
             }
         }
         // Sources of the vertices sent: 0 A, 1 B, 2 C, 3 column walker, 4 edge walker, 5 primary walker; 6 stays: what a
         // walker holds that nobody asked for may never have been set.
         if !self.beat.val() {
-            self.s1_left_from.d.next = 6.into();
-            self.s1_right_from.d.next = 6.into();
+            self.s0_left_from.d.next = 6.into();
+            self.s0_right_from.d.next = 6.into();
         } else if self.rung.val() {
-            self.s1_left_from.d.next = 0.into();
-            self.s1_right_from.d.next = 5.into();
+            self.s0_left_from.d.next = 0.into();
+            self.s0_right_from.d.next = 5.into();
             if self.op_second.val() {
-                self.s1_left_from.d.next = 1.into();
+                self.s0_left_from.d.next = 1.into();
                 if self.op_at_end.val() {
-                    self.s1_right_from.d.next = 0.into();
+                    self.s0_right_from.d.next = 0.into();
                 }
             } else if self.op_at_end.val() {
-                self.s1_right_from.d.next = 1.into();
+                self.s0_right_from.d.next = 1.into();
             }
         } else {
             if self.op_left.val() == 0 {
-                self.s1_left_from.d.next = 6.into();
+                self.s0_left_from.d.next = 6.into();
             } else if self.op_left.val() == 1 {
-                self.s1_left_from.d.next = 3.into();
+                self.s0_left_from.d.next = 3.into();
             } else if self.op_edge.val() == 0 {
-                self.s1_left_from.d.next = 4.into();
+                self.s0_left_from.d.next = 4.into();
             } else if self.op_edge.val() == 1 {
-                self.s1_left_from.d.next = 2.into();
+                self.s0_left_from.d.next = 2.into();
             } else {
-                self.s1_left_from.d.next = 1.into();
+                self.s0_left_from.d.next = 1.into();
             }
             if self.op_right.val() == 0 {
-                self.s1_right_from.d.next = 6.into();
+                self.s0_right_from.d.next = 6.into();
             } else if self.op_right.val() != 3 {
-                self.s1_right_from.d.next = 3.into();
+                self.s0_right_from.d.next = 3.into();
             } else if self.op_right_edge.val() == 0 {
-                self.s1_right_from.d.next = 4.into();
+                self.s0_right_from.d.next = 4.into();
             } else if self.op_right_edge.val() == 1 {
-                self.s1_right_from.d.next = 2.into();
+                self.s0_right_from.d.next = 2.into();
             } else {
-                self.s1_right_from.d.next = 1.into();
+                self.s0_right_from.d.next = 1.into();
             }
         }
-        self.s1_valid.d.next = self.beat.val();
-        self.s1_kind.d.next = bit_cast_to::<U<2>>(self.op_code.val());
-        self.s1_left.d.next = self.op_left.val();
-        self.s1_right.d.next = self.op_right.val();
-        self.s1_keep.d.next = self.op_keep.val();
-        self.s1_swap.d.next = self.op_swap.val();
-        self.s1_last.d.next = self.op_last.val();
+        self.s0_valid.d.next = self.beat.val();
+        self.s0_kind.d.next = bit_cast_to::<U<2>>(self.op_code.val());
+        self.s0_left.d.next = self.op_left.val();
+        self.s0_right.d.next = self.op_right.val();
+        self.s0_keep.d.next = self.op_keep.val();
+        self.s0_swap.d.next = self.op_swap.val();
+        self.s0_last.d.next = self.op_last.val();
+
+        // s1: the same, on the way to the lanes.
+        self.s1_load.d.next = self.s0_load.q.val();
+        self.s1_to_primary.d.next = self.s0_to_primary.q.val();
+        self.s1_to_edge.d.next = self.s0_to_edge.q.val();
+        self.s1_to_right.d.next = self.s0_to_right.q.val();
+        self.s1_rung.d.next = self.s0_rung.q.val();
+        self.s1_primary_minus.d.next = self.s0_primary_minus.q.val();
+        self.s1_edge_moves.d.next = self.s0_edge_moves.q.val();
+        self.s1_edge_minus.d.next = self.s0_edge_minus.q.val();
+        self.s1_edge_bc.d.next = self.s0_edge_bc.q.val();
+        self.s1_left_moves.d.next = self.s0_left_moves.q.val();
+        self.s1_from_base.d.next = self.s0_from_base.q.val();
+        self.s1_base_takes.d.next = self.s0_base_takes.q.val();
+        self.s1_right_side.d.next = self.s0_right_side.q.val();
+        self.s1_right_edge.d.next = self.s0_right_edge.q.val();
+        self.s1_right_ac.d.next = self.s0_right_ac.q.val();
+        self.s1_right_minus.d.next = self.s0_right_minus.q.val();
+        self.s1_climbs.d.next = self.s0_climbs.q.val();
+        self.s1_side_minus.d.next = self.s0_side_minus.q.val();
+        self.s1_left_from.d.next = self.s0_left_from.q.val();
+        self.s1_right_from.d.next = self.s0_right_from.q.val();
+        self.s1_valid.d.next = self.s0_valid.q.val();
+        self.s1_kind.d.next = self.s0_kind.q.val();
+        self.s1_left.d.next = self.s0_left.q.val();
+        self.s1_right.d.next = self.s0_right.q.val();
+        self.s1_keep.d.next = self.s0_keep.q.val();
+        self.s1_swap.d.next = self.s0_swap.q.val();
+        self.s1_last.d.next = self.s0_last.q.val();
+        self.s1_bus_a.d.next = self.s0_bus.q.val() == 0;
+        self.s1_bus_b.d.next = self.s0_bus.q.val() == 1;
+        self.s1_bus_c.d.next = self.s0_bus.q.val() == 2;
+        self.s1_bus_ab.d.next = self.s0_bus.q.val() == 3;
+        self.s1_bus_ac.d.next = self.s0_bus.q.val() == 4;
+        self.s1_bus_bc.d.next = self.s0_bus.q.val() == 5;
+        self.s1_bus_origin.d.next = self.s0_bus.q.val() == 6;
 
         // s2: the bus, and the base walker's step.
-        if self.s1_bus.q.val() == 0 {
-            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val()) | self.half.val();
-        } else if self.s1_bus.q.val() == 1 {
-            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val()) | self.half.val();
-        } else if self.s1_bus.q.val() == 2 {
-            self.start.next = (bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val()) | self.half.val();
-        } else if self.s1_bus.q.val() == 3 {
-            self.start.next = self.from_ab.q.val();
-        } else if self.s1_bus.q.val() == 4 {
-            self.start.next = self.from_ac.q.val();
-        } else if self.s1_bus.q.val() == 5 {
-            self.start.next = self.from_bc.q.val();
-        } else {
-            self.start.next = self.origin_b.q.val();
+        self.on_a.next = self.none.val();
+        if self.s1_bus_a.q.val() {
+            self.on_a.next = self.all.val();
         }
+        self.on_b.next = self.none.val();
+        if self.s1_bus_b.q.val() {
+            self.on_b.next = self.all.val();
+        }
+        self.on_c.next = self.none.val();
+        if self.s1_bus_c.q.val() {
+            self.on_c.next = self.all.val();
+        }
+        self.on_ab.next = self.none.val();
+        if self.s1_bus_ab.q.val() {
+            self.on_ab.next = self.all.val();
+        }
+        self.on_ac.next = self.none.val();
+        if self.s1_bus_ac.q.val() {
+            self.on_ac.next = self.all.val();
+        }
+        self.on_bc.next = self.none.val();
+        if self.s1_bus_bc.q.val() {
+            self.on_bc.next = self.all.val();
+        }
+        self.on_origin.next = self.none.val();
+        if self.s1_bus_origin.q.val() {
+            self.on_origin.next = self.all.val();
+        }
+        self.start.next = (self.on_a.val()
+            & ((bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val()) | self.half.val()))
+            | (self.on_b.val()
+                & ((bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val()) | self.half.val()))
+            | (self.on_c.val()
+                & ((bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val()) | self.half.val()))
+            | (self.on_ab.val() & self.from_ab.q.val())
+            | (self.on_ac.val() & self.from_ac.q.val())
+            | (self.on_bc.val() & self.from_bc.q.val())
+            | (self.on_origin.val() & self.origin_b.q.val());
         self.s2_start.d.next = self.start.val();
         // a - b is a + !b + 1: the one comes in as the carry out of a bit below.
         self.side_step.next = self.none.val();
@@ -677,7 +880,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s2_across.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.d_sweep.q.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.side_step.val()) << 1) | self.side_carry.val()))
-                >> 1,
+                >> 1
         );
         self.s2_to_primary.d.next = self.s1_to_primary.q.val();
         self.s2_to_edge.d.next = self.s1_to_edge.q.val();
@@ -760,8 +963,19 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s3_to_right.d.next = self.s2_to_right.q.val();
         self.s3_from_base.d.next = self.s2_from_base.q.val();
         self.s3_base_takes.d.next = self.s2_base_takes.q.val();
-        self.s3_left_from.d.next = self.s2_left_from.q.val();
-        self.s3_right_from.d.next = self.s2_right_from.q.val();
+        self.s3_left_from_a.d.next = self.s2_left_from.q.val() == 0;
+        self.s3_left_from_b.d.next = self.s2_left_from.q.val() == 1;
+        self.s3_left_from_c.d.next = self.s2_left_from.q.val() == 2;
+        self.s3_left_from_walker.d.next = self.s2_left_from.q.val() == 3;
+        self.s3_left_from_edge.d.next = self.s2_left_from.q.val() == 4;
+        self.s3_left_sent.d.next = self.s2_left_from.q.val() != 6;
+        self.s3_right_from_a.d.next = self.s2_right_from.q.val() == 0;
+        self.s3_right_from_b.d.next = self.s2_right_from.q.val() == 1;
+        self.s3_right_from_c.d.next = self.s2_right_from.q.val() == 2;
+        self.s3_right_from_walker.d.next = self.s2_right_from.q.val() == 3;
+        self.s3_right_from_edge.d.next = self.s2_right_from.q.val() == 4;
+        self.s3_right_from_primary.d.next = self.s2_right_from.q.val() == 5;
+        self.s3_right_sent.d.next = self.s2_right_from.q.val() != 6;
         self.s3_valid.d.next = self.s2_valid.q.val();
         self.s3_kind.d.next = self.s2_kind.q.val();
         self.s3_left.d.next = self.s2_left.q.val();
@@ -782,7 +996,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.primary_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_primary_step.q.val()) << 1) | self.primary_carry.val()))
-                >> 1,
+                >> 1
         );
         self.edge_carry.next = self.zero.val();
         if self.s3_edge_minus.q.val() {
@@ -795,7 +1009,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.edge_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_edge_step.q.val()) << 1) | self.edge_carry.val()))
-                >> 1,
+                >> 1
         );
         self.edge_before.d.next = bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val());
         self.left_from.next = self.left_walker.q.val();
@@ -816,47 +1030,85 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.right_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_right_step.q.val()) << 1) | self.right_carry.val()))
-                >> 1,
+                >> 1
         );
         // The base walker takes the right one's first vertex, a cycle behind it.
         self.base_walker.enable.next = self.s4_base_takes.q.val();
         self.base_walker.d.next = self.right_walker.q.val();
         self.s4_base_takes.d.next = self.s3_base_takes.q.val();
-        self.s4_left_from.d.next = self.s3_left_from.q.val();
-        self.s4_right_from.d.next = self.s3_right_from.q.val();
-        self.s4_valid.d.next = self.s3_valid.q.val();
-        self.s4_kind.d.next = self.s3_kind.q.val();
-        self.s4_left.d.next = self.s3_left.q.val();
-        self.s4_right.d.next = self.s3_right.q.val();
-        self.s4_keep.d.next = self.s3_keep.q.val();
-        self.s4_swap.d.next = self.s3_swap.q.val();
-        self.s4_last.d.next = self.s3_last.q.val();
+        self.s4_left_from_a.d.next = self.s3_left_from_a.q.val();
+        self.s4_left_from_b.d.next = self.s3_left_from_b.q.val();
+        self.s4_left_from_c.d.next = self.s3_left_from_c.q.val();
+        self.s4_left_from_walker.d.next = self.s3_left_from_walker.q.val();
+        self.s4_left_from_edge.d.next = self.s3_left_from_edge.q.val();
+        self.s4_left_sent.d.next = self.s3_left_sent.q.val();
+        self.s4_right_from_a.d.next = self.s3_right_from_a.q.val();
+        self.s4_right_from_b.d.next = self.s3_right_from_b.q.val();
+        self.s4_right_from_c.d.next = self.s3_right_from_c.q.val();
+        self.s4_right_from_walker.d.next = self.s3_right_from_walker.q.val();
+        self.s4_right_from_edge.d.next = self.s3_right_from_edge.q.val();
+        self.s4_right_from_primary.d.next = self.s3_right_from_primary.q.val();
+        self.s4_right_sent.d.next = self.s3_right_sent.q.val();
 
         // The vertices sent.
-        if self.s4_left_from.q.val() == 0 {
-            self.sent_left_vertex.d.next = self.va.q.val();
-        } else if self.s4_left_from.q.val() == 1 {
-            self.sent_left_vertex.d.next = self.vb.q.val();
-        } else if self.s4_left_from.q.val() == 2 {
-            self.sent_left_vertex.d.next = self.vc.q.val();
-        } else if self.s4_left_from.q.val() == 3 {
-            self.sent_left_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.left_walker.q.val() >> self.guard.val());
-        } else if self.s4_left_from.q.val() == 4 {
-            self.sent_left_vertex.d.next = self.edge_before.q.val();
+        self.left_on_a.next = self.never.val();
+        if self.s4_left_from_a.q.val() {
+            self.left_on_a.next = self.always.val();
         }
-        if self.s4_right_from.q.val() == 0 {
-            self.sent_right_vertex.d.next = self.va.q.val();
-        } else if self.s4_right_from.q.val() == 1 {
-            self.sent_right_vertex.d.next = self.vb.q.val();
-        } else if self.s4_right_from.q.val() == 2 {
-            self.sent_right_vertex.d.next = self.vc.q.val();
-        } else if self.s4_right_from.q.val() == 3 {
-            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.right_walker.q.val() >> self.guard.val());
-        } else if self.s4_right_from.q.val() == 4 {
-            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val());
-        } else if self.s4_right_from.q.val() == 5 {
-            self.sent_right_vertex.d.next = bit_cast_to::<Lanes<L, V>>(self.primary_walker.q.val() >> self.guard.val());
+        self.left_on_b.next = self.never.val();
+        if self.s4_left_from_b.q.val() {
+            self.left_on_b.next = self.always.val();
         }
+        self.left_on_c.next = self.never.val();
+        if self.s4_left_from_c.q.val() {
+            self.left_on_c.next = self.always.val();
+        }
+        self.left_on_walker.next = self.never.val();
+        if self.s4_left_from_walker.q.val() {
+            self.left_on_walker.next = self.always.val();
+        }
+        self.left_on_edge.next = self.never.val();
+        if self.s4_left_from_edge.q.val() {
+            self.left_on_edge.next = self.always.val();
+        }
+        self.right_on_a.next = self.never.val();
+        if self.s4_right_from_a.q.val() {
+            self.right_on_a.next = self.always.val();
+        }
+        self.right_on_b.next = self.never.val();
+        if self.s4_right_from_b.q.val() {
+            self.right_on_b.next = self.always.val();
+        }
+        self.right_on_c.next = self.never.val();
+        if self.s4_right_from_c.q.val() {
+            self.right_on_c.next = self.always.val();
+        }
+        self.right_on_walker.next = self.never.val();
+        if self.s4_right_from_walker.q.val() {
+            self.right_on_walker.next = self.always.val();
+        }
+        self.right_on_edge.next = self.never.val();
+        if self.s4_right_from_edge.q.val() {
+            self.right_on_edge.next = self.always.val();
+        }
+        self.right_on_primary.next = self.never.val();
+        if self.s4_right_from_primary.q.val() {
+            self.right_on_primary.next = self.always.val();
+        }
+        self.sent_left_vertex.enable.next = self.s4_left_sent.q.val();
+        self.sent_left_vertex.d.next = (self.left_on_a.val() & self.va.q.val())
+            | (self.left_on_b.val() & self.vb.q.val())
+            | (self.left_on_c.val() & self.vc.q.val())
+            | (self.left_on_walker.val() & bit_cast_to::<Lanes<L, V>>(self.left_walker.q.val() >> self.guard.val()))
+            | (self.left_on_edge.val() & self.edge_before.q.val());
+        self.sent_right_vertex.enable.next = self.s4_right_sent.q.val();
+        self.sent_right_vertex.d.next = (self.right_on_a.val() & self.va.q.val())
+            | (self.right_on_b.val() & self.vb.q.val())
+            | (self.right_on_c.val() & self.vc.q.val())
+            | (self.right_on_walker.val() & bit_cast_to::<Lanes<L, V>>(self.right_walker.q.val() >> self.guard.val()))
+            | (self.right_on_edge.val() & bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val()))
+            | (self.right_on_primary.val()
+                & bit_cast_to::<Lanes<L, V>>(self.primary_walker.q.val() >> self.guard.val()));
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -864,4 +1116,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_bus, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_left_from, s3_right_from, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, s4_left_from, s4_right_from, s4_valid, s4_kind, s4_left, s4_right, s4_keep, s4_swap, s4_last, sent_left_vertex, sent_right_vertex }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, sent_left_vertex, sent_right_vertex, s0_load, s0_bus, s0_to_primary, s0_to_edge, s0_to_right, s0_rung, s0_primary_minus, s0_edge_moves, s0_edge_minus, s0_edge_bc, s0_left_moves, s0_from_base, s0_base_takes, s0_right_side, s0_right_edge, s0_right_ac, s0_right_minus, s0_climbs, s0_side_minus, s0_left_from, s0_right_from, s0_valid, s0_kind, s0_left, s0_right, s0_keep, s0_swap, s0_last, s1_bus_a, s1_bus_b, s1_bus_c, s1_bus_ab, s1_bus_ac, s1_bus_bc, s1_bus_origin, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b, s3_right_from_c, s3_right_from_walker, s3_right_from_edge, s3_right_from_primary, s3_right_sent, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent }
