@@ -96,6 +96,16 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     va: DataRegister<Lanes<L, V>>,
     vb: DataRegister<Lanes<L, V>>,
     vc: DataRegister<Lanes<L, V>>,
+    /// The vertex data follow their corners two cycles later, all lanes by registers of their own: they take what is offered
+    /// while nothing is shut, and change places; or stand.
+    turns_bc: Register<Bit>,
+    turns_ca: Register<Bit>,
+    swaps: Register<Bit>,
+    v_shut: Register<Bit>,
+    v_turns_bc: Register<Bit>,
+    v_turns_ca: Register<Bit>,
+    v_rests: Register<Bit>,
+    vc_rests: Register<Bit>,
     len_ab: DataRegister<S<T>>,
     len_bc: DataRegister<S<T>>,
     len_ca: DataRegister<S<T>>,
@@ -143,6 +153,8 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     edge_bc: Gated<EdgeMeasure<T>>,
     edge_ca: Gated<EdgeMeasure<T>>,
     exchange: Wire<Bit>,
+    /// The next cycle is `Idle`.
+    opens: Wire<Bit>,
     axis: Wire<U<2>>,
     side_axis: Wire<U<2>>,
     other_axis: Wire<U<2>>,
@@ -153,6 +165,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests);
         dff_setup!(
             self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc,
             ab_ca, bc_ca
@@ -245,15 +258,39 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.ab_ca.d.next = self.len_ab.q.val() >= self.len_ca.q.val();
         self.bc_ca.d.next = self.len_bc.q.val() >= self.len_ca.q.val();
         self.exchange.next = false;
+        self.turns_bc.d.next = false;
+        self.turns_ca.d.next = false;
+        self.swaps.d.next = false;
+        self.opens.next = (self.state.q.val() == SetupState::Idle && !self.in_valid.val())
+            || (self.state.q.val() == SetupState::Wait && !self.units_busy.val() && self.record_ready.val());
+        self.v_shut.d.next = !self.opens.val();
+        self.v_turns_bc.d.next = self.turns_bc.q.val();
+        self.v_turns_ca.d.next = self.turns_ca.q.val();
+        self.v_rests.d.next =
+            !(self.opens.val() || self.turns_bc.q.val() || self.turns_ca.q.val() || self.swaps.q.val());
+        self.vc_rests.d.next = !(self.opens.val() || self.turns_bc.q.val() || self.turns_ca.q.val());
+        self.va.enable.next = !self.v_rests.q.val();
+        self.vb.enable.next = !self.v_rests.q.val();
+        self.vc.enable.next = !self.vc_rests.q.val();
+        self.va.d.next = self.vb.q.val();
+        self.vb.d.next = self.va.q.val();
+        self.vc.d.next = self.vb.q.val();
+        if !self.v_shut.q.val() {
+            self.va.d.next = self.in_v0.val();
+            self.vb.d.next = self.in_v1.val();
+            self.vc.d.next = self.in_v2.val();
+        } else if self.v_turns_bc.q.val() {
+            self.vb.d.next = self.vc.q.val();
+            self.vc.d.next = self.va.q.val();
+        } else if self.v_turns_ca.q.val() {
+            self.va.d.next = self.vc.q.val();
+        }
         match self.state.q.val() {
             SetupState::Idle => {
                 if self.in_valid.val() {
                     self.pa.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p0.val());
                     self.pb.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p1.val());
                     self.pc.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p2.val());
-                    self.va.d.next = self.in_v0.val();
-                    self.vb.d.next = self.in_v1.val();
-                    self.vc.d.next = self.in_v2.val();
                     self.state.d.next = SetupState::Measure;
                     self.round.d.next = 0.into();
                 }
@@ -291,9 +328,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.pa.d.next = self.pb.q.val();
                     self.pb.d.next = self.pc.q.val();
                     self.pc.d.next = self.pa.q.val();
-                    self.va.d.next = self.vb.q.val();
-                    self.vb.d.next = self.vc.q.val();
-                    self.vc.d.next = self.va.q.val();
+                    self.turns_bc.d.next = true;
                     self.len_ab.d.next = self.len_bc.q.val();
                     self.len_bc.d.next = self.len_ca.q.val();
                     self.len_ca.d.next = self.len_ab.q.val();
@@ -304,9 +339,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                     self.pa.d.next = self.pc.q.val();
                     self.pb.d.next = self.pa.q.val();
                     self.pc.d.next = self.pb.q.val();
-                    self.va.d.next = self.vc.q.val();
-                    self.vb.d.next = self.va.q.val();
-                    self.vc.d.next = self.vb.q.val();
+                    self.turns_ca.d.next = true;
                     self.len_ab.d.next = self.len_ca.q.val();
                     self.len_bc.d.next = self.len_ab.q.val();
                     self.len_ca.d.next = self.len_bc.q.val();
@@ -411,8 +444,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         if self.exchange.val() {
             self.pa.d.next = self.pb.q.val();
             self.pb.d.next = self.pa.q.val();
-            self.va.d.next = self.vb.q.val();
-            self.vb.d.next = self.va.q.val();
+            self.swaps.d.next = true;
             self.len_bc.d.next = self.len_ca.q.val();
             self.len_ca.d.next = self.len_bc.q.val();
             self.dir_bc.d.next = self.dir_ca.q.val();
@@ -426,4 +458,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests }
