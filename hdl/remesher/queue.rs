@@ -36,6 +36,8 @@ pub struct StepQueue<const L: usize, const V: usize> {
     pub out_right_vertex: Output<Lanes<L, V>>,
     /// Beats that wait in the memories.
     waiting: Register<U<5>>,
+    /// There is one.
+    any: Register<Bit>,
     write_place: Register<U<4>>,
     read_place: Register<U<4>>,
     /// The memories' output registers hold a beat.
@@ -79,6 +81,7 @@ impl<const L: usize, const V: usize> Default for StepQueue<L, V> {
             out_left_vertex: Output::default(),
             out_right_vertex: Output::default(),
             waiting: Register::default(),
+            any: Register::default(),
             write_place: Register::default(),
             read_place: Register::default(),
             held: Register::default(),
@@ -97,6 +100,7 @@ impl<const L: usize, const V: usize> Default for StepQueue<L, V> {
 impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, any);
         dff_setup!(self, clock, write_valid, write_codes, next_place);
         dff_setup!(self, clock, waiting, write_place, read_place, held, has_room);
         clock!(self, clock, codes, left_vertices, right_vertices);
@@ -123,7 +127,7 @@ impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
         self.right_vertices.write_address.next = self.write_place.q.val();
         self.right_vertices.write_data.next = self.in_right_vertex.val();
 
-        self.takes.next = self.waiting.q.val() != 0 && (!self.held.q.val() || self.out_ready.val());
+        self.takes.next = self.any.q.val() && (!self.held.q.val() || self.out_ready.val());
         self.codes.enable.next = self.takes.val();
         self.codes.read_address.next = self.read_place.q.val();
         self.left_vertices.enable.next = self.takes.val();
@@ -141,6 +145,9 @@ impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
         } else if !self.write_valid.q.val() && self.takes.val() {
             self.waiting.d.next = self.waiting.q.val() - 1;
         }
+        self.any.d.next = self.write_valid.q.val()
+            || (self.waiting.q.val() >> 1) != 0
+            || (self.waiting.q.val().get_bit(0) && !self.takes.val());
         self.out_valid.next = self.held.q.val();
         self.out_kind.next = self.codes.read_data.val().get_bits::<2>(6);
         self.out_left.next = self.codes.read_data.val().get_bits::<2>(4);
@@ -156,4 +163,4 @@ impl<const L: usize, const V: usize> Logic for StepQueue<L, V> {
     }
 }
 
-watched! { [const L: usize, const V: usize] StepQueue<L, V>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready; codes, left_vertices, right_vertices; waiting, write_place, read_place, held, has_room, codes, left_vertices, right_vertices, write_valid, write_codes, next_place }
+watched! { [const L: usize, const V: usize] StepQueue<L, V>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, out_ready; codes, left_vertices, right_vertices; waiting, write_place, read_place, held, has_room, codes, left_vertices, right_vertices, write_valid, write_codes, next_place, any }

@@ -276,8 +276,8 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     zero: Constant<Lanes<L, X>>,
     none: Constant<Lanes<L, W>>,
     all: Constant<Lanes<L, W>>,
-    never: Constant<Lanes<L, V>>,
-    always: Constant<Lanes<L, V>>,
+    no_bit: Constant<Lanes<L, V>>,
+    every_bit: Constant<Lanes<L, V>>,
 }
 
 impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for Walkers<L, V, W, X> {
@@ -522,8 +522,8 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             zero: Constant::new(Lanes::new([0; L])),
             none: Constant::new(Lanes::new([0; L])),
             all: Constant::new(Lanes::new([-1; L])),
-            never: Constant::new(Lanes::new([0; L])),
-            always: Constant::new(Lanes::new([-1; L])),
+            no_bit: Constant::new(Lanes::new([0; L])),
+            every_bit: Constant::new(Lanes::new([-1; L])),
         }
     }
 }
@@ -1051,49 +1051,49 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s4_right_sent.d.next = self.s3_right_sent.q.val();
 
         // The vertices sent.
-        self.left_on_a.next = self.never.val();
+        self.left_on_a.next = self.no_bit.val();
         if self.s4_left_from_a.q.val() {
-            self.left_on_a.next = self.always.val();
+            self.left_on_a.next = self.every_bit.val();
         }
-        self.left_on_b.next = self.never.val();
+        self.left_on_b.next = self.no_bit.val();
         if self.s4_left_from_b.q.val() {
-            self.left_on_b.next = self.always.val();
+            self.left_on_b.next = self.every_bit.val();
         }
-        self.left_on_c.next = self.never.val();
+        self.left_on_c.next = self.no_bit.val();
         if self.s4_left_from_c.q.val() {
-            self.left_on_c.next = self.always.val();
+            self.left_on_c.next = self.every_bit.val();
         }
-        self.left_on_walker.next = self.never.val();
+        self.left_on_walker.next = self.no_bit.val();
         if self.s4_left_from_walker.q.val() {
-            self.left_on_walker.next = self.always.val();
+            self.left_on_walker.next = self.every_bit.val();
         }
-        self.left_on_edge.next = self.never.val();
+        self.left_on_edge.next = self.no_bit.val();
         if self.s4_left_from_edge.q.val() {
-            self.left_on_edge.next = self.always.val();
+            self.left_on_edge.next = self.every_bit.val();
         }
-        self.right_on_a.next = self.never.val();
+        self.right_on_a.next = self.no_bit.val();
         if self.s4_right_from_a.q.val() {
-            self.right_on_a.next = self.always.val();
+            self.right_on_a.next = self.every_bit.val();
         }
-        self.right_on_b.next = self.never.val();
+        self.right_on_b.next = self.no_bit.val();
         if self.s4_right_from_b.q.val() {
-            self.right_on_b.next = self.always.val();
+            self.right_on_b.next = self.every_bit.val();
         }
-        self.right_on_c.next = self.never.val();
+        self.right_on_c.next = self.no_bit.val();
         if self.s4_right_from_c.q.val() {
-            self.right_on_c.next = self.always.val();
+            self.right_on_c.next = self.every_bit.val();
         }
-        self.right_on_walker.next = self.never.val();
+        self.right_on_walker.next = self.no_bit.val();
         if self.s4_right_from_walker.q.val() {
-            self.right_on_walker.next = self.always.val();
+            self.right_on_walker.next = self.every_bit.val();
         }
-        self.right_on_edge.next = self.never.val();
+        self.right_on_edge.next = self.no_bit.val();
         if self.s4_right_from_edge.q.val() {
-            self.right_on_edge.next = self.always.val();
+            self.right_on_edge.next = self.every_bit.val();
         }
-        self.right_on_primary.next = self.never.val();
+        self.right_on_primary.next = self.no_bit.val();
         if self.s4_right_from_primary.q.val() {
-            self.right_on_primary.next = self.always.val();
+            self.right_on_primary.next = self.every_bit.val();
         }
         self.sent_left_vertex.enable.next = self.s4_left_sent.q.val();
         self.sent_left_vertex.d.next = (self.left_on_a.val() & self.va.q.val())
