@@ -64,8 +64,8 @@ pub struct EdgeSetup<const L: usize, const V: usize, const W: usize, const X: us
     fresh: Register<Bit>,
     /// And in the one before: the difference stands.
     settled: Register<Bit>,
-    /// And in the one before that: the numerator stands.
-    steady: Register<Bit>,
+    /// A division may begin: the numerator stands soon, and the divider is free.
+    due: Register<Bit>,
     /// Its ends: 0 A, 1 B, 2 C.
     lo_from: DataRegister<U<2>>,
     hi_from: DataRegister<U<2>>,
@@ -146,7 +146,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
             ahead: Register::default(),
             fresh: Register::default(),
             settled: Register::default(),
-            steady: Register::default(),
+            due: Register::default(),
             lo_from: DataRegister::default(),
             hi_from: DataRegister::default(),
             lo_pick: DataRegister::default(),
@@ -199,12 +199,13 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, due);
         dff_setup!(self, clock, keeps_ab, keeps_ac, keeps_bc, starts_ab, starts_ac, starts_bc);
         dff_setup!(self, clock, begun, takes_hi);
         dff_setup!(self, clock, n_rem);
         dff_setup!(self, clock, n_numerator);
         dff_setup!(self, clock, lo_pick, hi_pick);
-        dff_setup!(self, clock, state, running, finished, ahead, fresh, settled, steady, lo_from, hi_from, closing);
+        dff_setup!(self, clock, state, running, finished, ahead, fresh, settled, lo_from, hi_from, closing);
         dff_setup!(self, clock, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg);
         dff_setup!(self, clock, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, rem);
         clock!(self, clock, divider);
@@ -294,14 +295,14 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         self.start_bc_reg.enable.next = self.starts_bc.q.val();
         self.start_bc_reg.d.next = self.far.val();
 
-        self.begins.next = self.state.q.val() != EdgeState::Idle
+        // Three edges are taken up in turn; then `ahead` is 3.
+        self.due.d.next = self.state.q.val() != EdgeState::Idle
+            && self.ahead.q.val() != 3
             && !self.running.q.val()
-            && self.steady.q.val()
-            && self.long_ahead.q.val();
-        self.skips.next = self.state.q.val() != EdgeState::Idle
-            && !self.running.q.val()
-            && self.steady.q.val()
-            && !self.long_ahead.q.val();
+            && self.settled.q.val()
+            && !self.due.q.val();
+        self.begins.next = self.due.q.val() && self.long_ahead.q.val();
+        self.skips.next = self.due.q.val() && !self.long_ahead.q.val();
         self.divider.start.next = self.begins.val();
         self.begun.d.next = self.begins.val();
         self.takes_hi.d.next = self.begun.q.val();
@@ -310,19 +311,17 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
         self.finished.d.next = self.divider.done.val();
         self.fresh.d.next = true;
         self.settled.d.next = self.fresh.q.val();
-        self.steady.d.next = self.settled.q.val();
         self.closing.d.next = 0.into();
         if self.begins.val() || self.skips.val() {
             self.ahead.d.next = self.ahead.q.val() + 1;
             self.fresh.d.next = false;
             self.settled.d.next = false;
-            self.steady.d.next = false;
         }
         if self.begins.val() {
             self.running.d.next = true;
             self.n_now.d.next = self.n_ahead.q.val();
         }
-        if self.finished.q.val() {
+        if self.divider.done.val() {
             self.running.d.next = false;
         }
         if self.state.q.val() == EdgeState::Idle {
@@ -359,4 +358,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize, const T: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg, ahead, fresh, settled, steady, lo_from, hi_from, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, closing, rem, divider, finished, lo_pick, hi_pick, n_numerator, n_rem, begun, takes_hi, keeps_ab, keeps_ac, keeps_bc, starts_ab, starts_ac, starts_bc }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize, const T: usize] EdgeSetup<L, V, W, X, T>: start, corner_a, corner_b, corner_c, n_ab, n_ac, n_bc, a_hi_ab, a_hi_ac, b_hi_bc; divider; state, running, step_ab_reg, step_ac_reg, step_bc_reg, start_ab_reg, start_ac_reg, start_bc_reg, ahead, fresh, settled, lo_from, hi_from, difference, numerator, n_ahead, long_ahead, hi_ahead, n_now, hi_now, closing, rem, divider, finished, lo_pick, hi_pick, n_numerator, n_rem, begun, takes_hi, keeps_ab, keeps_ac, keeps_bc, starts_ab, starts_ac, starts_bc, due }

@@ -99,6 +99,12 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     p2_lane: DataRegister<U<5>>,
     p2_factor: DataRegister<S<W>>,
     p2_span: DataRegister<S<T>>,
+    /// The same a cycle later, at the multipliers.
+    at_valid: Register<Bit>,
+    at_second: DataRegister<Bit>,
+    at_lane: DataRegister<U<5>>,
+    at_factor: DataRegister<S<W>>,
+    at_span: DataRegister<S<T>>,
     p3_valid: Register<Bit>,
     p3_second: DataRegister<Bit>,
     p3_lane: DataRegister<U<5>>,
@@ -120,9 +126,10 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     p6_first: DataRegister<WideS<P>>,
     p6_difference: DataRegister<WideS<P>>,
     p6_origin: DataRegister<S<W>>,
-    p7_valid: Register<Bit>,
-    p7_second: DataRegister<Bit>,
     p7_lane: DataRegister<U<5>>,
+    /// It goes to the base vertex, to the numerators.
+    puts_base: Register<Bit>,
+    puts_numerator: Register<Bit>,
     p7_numerator: DataRegister<WideS<P>>,
     p7_origin: DataRegister<S<W>>,
     /// The last lane of the round has been written.
@@ -208,6 +215,11 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             p2_lane: DataRegister::default(),
             p2_factor: DataRegister::default(),
             p2_span: DataRegister::default(),
+            at_valid: Register::default(),
+            at_second: DataRegister::default(),
+            at_lane: DataRegister::default(),
+            at_factor: DataRegister::default(),
+            at_span: DataRegister::default(),
             p3_valid: Register::default(),
             p3_second: DataRegister::default(),
             p3_lane: DataRegister::default(),
@@ -229,9 +241,9 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             p6_first: DataRegister::default(),
             p6_difference: DataRegister::default(),
             p6_origin: DataRegister::default(),
-            p7_valid: Register::default(),
-            p7_second: DataRegister::default(),
             p7_lane: DataRegister::default(),
+            puts_base: Register::default(),
+            puts_numerator: Register::default(),
             p7_numerator: DataRegister::default(),
             p7_origin: DataRegister::default(),
             complete: Register::default(),
@@ -266,8 +278,10 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, puts_base, puts_numerator);
+        dff_setup!(self, clock, at_valid, at_second, at_lane, at_factor, at_span);
         dff_setup!(self, clock, sums_soon, takes_soon, starts_soon);
-        dff_setup!(self, clock, p7_valid, p7_second, p7_lane, p7_numerator, p7_origin);
+        dff_setup!(self, clock, p7_lane, p7_numerator, p7_origin);
         dff_setup!(self, clock, near_valid, near_second, near_lane);
         dff_setup!(self, clock, side_soon, sweep_soon, takes_side, takes_sweep_quotient);
         dff_setup!(
@@ -390,16 +404,22 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             }
         }
 
+        self.at_valid.d.next = self.p2_valid.q.val();
+        self.at_second.d.next = self.p2_second.q.val();
+        self.at_lane.d.next = self.p2_lane.q.val();
+        self.at_factor.d.next = self.p2_factor.q.val();
+        self.at_span.d.next = self.p2_span.q.val();
+
         // p3: sixteen bits at a time, the lower ones without a sign.
-        self.part_0.a.next = bit_cast_to::<S<17>>(self.p2_factor.q.val().get_bits::<16>(0));
-        self.part_1.a.next = bit_cast_to::<S<17>>(self.p2_factor.q.val().get_bits::<16>(16));
-        self.part_2.a.next = bit_cast_to::<S<17>>(self.p2_factor.q.val() >> 32);
-        self.part_0.b.next = self.p2_span.q.val();
-        self.part_1.b.next = self.p2_span.q.val();
-        self.part_2.b.next = self.p2_span.q.val();
-        self.p3_valid.d.next = self.p2_valid.q.val();
-        self.p3_second.d.next = self.p2_second.q.val();
-        self.p3_lane.d.next = self.p2_lane.q.val();
+        self.part_0.a.next = bit_cast_to::<S<17>>(self.at_factor.q.val().get_bits::<16>(0));
+        self.part_1.a.next = bit_cast_to::<S<17>>(self.at_factor.q.val().get_bits::<16>(16));
+        self.part_2.a.next = bit_cast_to::<S<17>>(self.at_factor.q.val() >> 32);
+        self.part_0.b.next = self.at_span.q.val();
+        self.part_1.b.next = self.at_span.q.val();
+        self.part_2.b.next = self.at_span.q.val();
+        self.p3_valid.d.next = self.at_valid.q.val();
+        self.p3_second.d.next = self.at_second.q.val();
+        self.p3_lane.d.next = self.at_lane.q.val();
 
         // p4 and p5: their sum; P bits hold every product of W by T bits.
         self.p4_low.d.next =
@@ -433,16 +453,17 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
         self.p7_numerator.d.next =
             (self.p6_difference.q.val() << self.guard_shift.val()) + bit_cast_to::<WideS<P>>(self.area2.val());
         self.p7_origin.d.next = self.p6_origin.q.val();
-        self.p7_valid.d.next = self.p6_valid.q.val();
-        self.p7_second.d.next = self.p6_second.q.val();
         self.p7_lane.d.next = self.p6_lane.q.val();
 
         // To its lane.
-        if self.p7_valid.q.val() {
-            if self.sums_base.q.val() {
-                self.base_reg.d.next =
-                    self.base_reg.q.val().replace_bit(self.p7_lane.q.val().index(), self.p7_origin.q.val());
-            } else if self.p7_second.q.val() {
+        self.puts_base.d.next = self.p6_valid.q.val() && self.sums_base.q.val();
+        self.puts_numerator.d.next =
+            self.p6_valid.q.val() && self.p6_second.q.val() && !self.sums_base.q.val();
+        if self.puts_base.q.val() {
+            self.base_reg.d.next =
+                self.base_reg.q.val().replace_bit(self.p7_lane.q.val().index(), self.p7_origin.q.val());
+        }
+        if self.puts_numerator.q.val() {
                 self.high.d.next = self.high.q.val().replace_bit(
                     self.p7_lane.q.val().index(),
                     bit_cast_to::<S<A>>(self.p7_numerator.q.val() >> self.quotient_bits.val()),
@@ -452,11 +473,9 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
                     .q
                     .val()
                     .replace_bit(self.p7_lane.q.val().index(), bit_cast_to::<S<W>>(self.p7_numerator.q.val()));
-            }
         }
-        self.complete.d.next = self.p7_valid.q.val()
-            && self.p7_lane.q.val() == self.last_lane.val()
-            && (self.sums_base.q.val() || self.p7_second.q.val());
+        self.complete.d.next = (self.puts_base.q.val() || self.puts_numerator.q.val())
+            && self.p7_lane.q.val() == self.last_lane.val();
 
         self.divider.high.next = self.high.q.val();
         self.divider.low.next = self.low.q.val();
@@ -516,4 +535,4 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider, side_soon, sweep_soon, takes_side, takes_sweep_quotient, near_valid, near_second, near_lane, p7_valid, p7_second, p7_lane, p7_numerator, p7_origin, sums_soon, takes_soon, starts_soon }
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider, side_soon, sweep_soon, takes_side, takes_sweep_quotient, near_valid, near_second, near_lane, p7_lane, p7_numerator, p7_origin, sums_soon, takes_soon, starts_soon, at_valid, at_second, at_lane, at_factor, at_span, puts_base, puts_numerator }

@@ -20,6 +20,8 @@ use crate::remesher::EdgeMeasure;
 #[allow(missing_docs)]
 pub enum SetupState {
     Idle,
+    /// Takes the base triangle that waits: a cycle for the wires to the vertex data.
+    Take,
     /// Lengths and main directions of the edges, and which is longer than which, in five cycles.
     Measure,
     /// Which edge is the longest?
@@ -89,6 +91,8 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     pub swap: Output<Bit>,
     state: Register<SetupState>,
     round: Register<U<3>>,
+    /// The units were at work in the cycle before, or begin.
+    were_busy: Register<Bit>,
     // Corners and the edges ab, bc, ca between them: length, main direction.
     pa: DataRegister<Lanes<3, T>>,
     pb: DataRegister<Lanes<3, T>>,
@@ -102,6 +106,8 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     turns_ca: Register<Bit>,
     swaps: Register<Bit>,
     v_shut: Register<Bit>,
+    /// The same a cycle before.
+    shut: Register<Bit>,
     v_turns_bc: DataRegister<Bit>,
     v_turns_ca: DataRegister<Bit>,
     v_rests: Register<Bit>,
@@ -153,7 +159,7 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     edge_bc: Gated<EdgeMeasure<T>>,
     edge_ca: Gated<EdgeMeasure<T>>,
     exchange: Wire<Bit>,
-    /// The next cycle is `Idle`.
+    /// The next cycle is `Idle`, or `Idle` goes on.
     opens: Wire<Bit>,
     axis: Wire<U<2>>,
     side_axis: Wire<U<2>>,
@@ -165,6 +171,8 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, were_busy);
+        dff_setup!(self, clock, shut);
         dff_setup!(self, clock, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests);
         dff_setup!(
             self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc,
@@ -191,10 +199,11 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
             c_along_bc
         );
         clock!(self, clock, multiplier, edge_ab, edge_bc, edge_ca);
-        self.in_ready.next = self.state.q.val() == SetupState::Idle;
+        self.in_ready.next = self.state.q.val() == SetupState::Take;
         self.edge_start.next = self.state.q.val() == SetupState::Areas && self.round.q.val() == 1;
         self.interior_start.next = self.state.q.val() == SetupState::Interior;
-        self.record_valid.next = self.state.q.val() == SetupState::Wait && !self.units_busy.val();
+        self.were_busy.d.next = self.units_busy.val() || self.state.q.val() == SetupState::Interior;
+        self.record_valid.next = self.state.q.val() == SetupState::Wait && !self.were_busy.q.val();
         self.corner_a.next = self.va.q.val();
         self.corner_b.next = self.vb.q.val();
         self.corner_c.next = self.vc.q.val();
@@ -262,13 +271,14 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.turns_ca.d.next = false;
         self.swaps.d.next = false;
         self.opens.next = (self.state.q.val() == SetupState::Idle && !self.in_valid.val())
-            || (self.state.q.val() == SetupState::Wait && !self.units_busy.val() && self.record_ready.val());
-        self.v_shut.d.next = !self.opens.val();
+            || (self.state.q.val() == SetupState::Wait && !self.were_busy.q.val() && self.record_ready.val());
+        self.shut.d.next = !self.opens.val();
+        self.v_shut.d.next = self.shut.q.val();
         self.v_turns_bc.d.next = self.turns_bc.q.val();
         self.v_turns_ca.d.next = self.turns_ca.q.val();
         self.v_rests.d.next =
-            !(self.opens.val() || self.turns_bc.q.val() || self.turns_ca.q.val() || self.swaps.q.val());
-        self.vc_rests.d.next = !(self.opens.val() || self.turns_bc.q.val() || self.turns_ca.q.val());
+            self.shut.q.val() && !(self.turns_bc.q.val() || self.turns_ca.q.val() || self.swaps.q.val());
+        self.vc_rests.d.next = self.shut.q.val() && !(self.turns_bc.q.val() || self.turns_ca.q.val());
         self.va.enable.next = !self.v_rests.q.val();
         self.vb.enable.next = !self.v_rests.q.val();
         self.vc.enable.next = !self.vc_rests.q.val();
@@ -288,12 +298,15 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         match self.state.q.val() {
             SetupState::Idle => {
                 if self.in_valid.val() {
-                    self.pa.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p0.val());
-                    self.pb.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p1.val());
-                    self.pc.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p2.val());
-                    self.state.d.next = SetupState::Measure;
-                    self.round.d.next = 0.into();
+                    self.state.d.next = SetupState::Take;
                 }
+            }
+            SetupState::Take => {
+                self.pa.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p0.val());
+                self.pb.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p1.val());
+                self.pc.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p2.val());
+                self.state.d.next = SetupState::Measure;
+                self.round.d.next = 0.into();
             }
             SetupState::Measure => {
                 self.round.d.next = self.round.q.val() + 1;
@@ -436,7 +449,7 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                 self.state.d.next = SetupState::Wait;
             }
             SetupState::Wait => {
-                if !self.units_busy.val() && self.record_ready.val() {
+                if !self.were_busy.q.val() && self.record_ready.val() {
                     self.state.d.next = SetupState::Idle;
                 }
             }
@@ -458,4 +471,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests, shut, were_busy }

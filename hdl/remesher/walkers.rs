@@ -132,15 +132,17 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     s1_to_right: DataRegister<Bit>,
     s1_rung: DataRegister<Bit>,
     s1_primary_minus: DataRegister<Bit>,
-    s1_edge_moves: DataRegister<Bit>,
+    s1_primary_moves: DataRegister<Bit>,
+    s1_edge_ac: DataRegister<Bit>,
     s1_edge_minus: DataRegister<Bit>,
     s1_edge_bc: DataRegister<Bit>,
     s1_left_moves: DataRegister<Bit>,
     s1_from_base: DataRegister<Bit>,
     s1_base_takes: DataRegister<Bit>,
     s1_right_side: DataRegister<Bit>,
-    s1_right_edge: DataRegister<Bit>,
+    s1_right_across: DataRegister<Bit>,
     s1_right_ac: DataRegister<Bit>,
+    s1_right_bc: DataRegister<Bit>,
     s1_right_minus: DataRegister<Bit>,
     s1_climbs: DataRegister<Bit>,
     s1_side_minus: DataRegister<Bit>,
@@ -161,15 +163,17 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     s2_to_right: DataRegister<Bit>,
     s2_rung: DataRegister<Bit>,
     s2_primary_minus: DataRegister<Bit>,
-    s2_edge_moves: DataRegister<Bit>,
+    s2_primary_moves: DataRegister<Bit>,
+    s2_edge_ac: DataRegister<Bit>,
     s2_edge_minus: DataRegister<Bit>,
     s2_edge_bc: DataRegister<Bit>,
     s2_left_moves: DataRegister<Bit>,
     s2_from_base: DataRegister<Bit>,
     s2_base_takes: DataRegister<Bit>,
     s2_right_side: DataRegister<Bit>,
-    s2_right_edge: DataRegister<Bit>,
+    s2_right_across: DataRegister<Bit>,
     s2_right_ac: DataRegister<Bit>,
+    s2_right_bc: DataRegister<Bit>,
     s2_right_minus: DataRegister<Bit>,
     s2_left_from: DataRegister<U<3>>,
     s2_right_from: DataRegister<U<3>>,
@@ -261,14 +265,27 @@ pub struct Walkers<const L: usize, const V: usize, const W: usize, const X: usiz
     right_on_primary: Wire<Lanes<L, V>>,
     side_step: Wire<Lanes<L, W>>,
     side_carry: Wire<Lanes<L, X>>,
-    edge_along: Wire<Lanes<L, W>>,
-    right_along: Wire<Lanes<L, W>>,
     primary_from: Wire<Lanes<L, W>>,
     primary_carry: Wire<Lanes<L, X>>,
     edge_from: Wire<Lanes<L, W>>,
     edge_carry: Wire<Lanes<L, X>>,
     left_from: Wire<Lanes<L, W>>,
     right_from: Wire<Lanes<L, W>>,
+    right_free: Wire<Bit>,
+    on_to_primary: Wire<Lanes<L, W>>,
+    on_primary_moves: Wire<Lanes<L, W>>,
+    on_primary_minus: Wire<Lanes<L, W>>,
+    on_to_edge: Wire<Lanes<L, W>>,
+    on_edge_ac: Wire<Lanes<L, W>>,
+    on_edge_bc: Wire<Lanes<L, W>>,
+    on_edge_minus: Wire<Lanes<L, W>>,
+    on_left_moves: Wire<Lanes<L, W>>,
+    on_to_right: Wire<Lanes<L, W>>,
+    on_right_side: Wire<Lanes<L, W>>,
+    on_right_across: Wire<Lanes<L, W>>,
+    on_right_ac: Wire<Lanes<L, W>>,
+    on_right_bc: Wire<Lanes<L, W>>,
+    on_right_minus: Wire<Lanes<L, W>>,
     right_carry: Wire<Lanes<L, X>>,
     guard: Constant<U<6>>,
     half: Constant<Lanes<L, W>>,
@@ -382,15 +399,17 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             s1_to_right: DataRegister::default(),
             s1_rung: DataRegister::default(),
             s1_primary_minus: DataRegister::default(),
-            s1_edge_moves: DataRegister::default(),
+            s1_primary_moves: DataRegister::default(),
+            s1_edge_ac: DataRegister::default(),
             s1_edge_minus: DataRegister::default(),
             s1_edge_bc: DataRegister::default(),
             s1_left_moves: DataRegister::default(),
             s1_from_base: DataRegister::default(),
             s1_base_takes: DataRegister::default(),
             s1_right_side: DataRegister::default(),
-            s1_right_edge: DataRegister::default(),
+            s1_right_across: DataRegister::default(),
             s1_right_ac: DataRegister::default(),
+            s1_right_bc: DataRegister::default(),
             s1_right_minus: DataRegister::default(),
             s1_climbs: DataRegister::default(),
             s1_side_minus: DataRegister::default(),
@@ -410,15 +429,17 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             s2_to_right: DataRegister::default(),
             s2_rung: DataRegister::default(),
             s2_primary_minus: DataRegister::default(),
-            s2_edge_moves: DataRegister::default(),
+            s2_primary_moves: DataRegister::default(),
+            s2_edge_ac: DataRegister::default(),
             s2_edge_minus: DataRegister::default(),
             s2_edge_bc: DataRegister::default(),
             s2_left_moves: DataRegister::default(),
             s2_from_base: DataRegister::default(),
             s2_base_takes: DataRegister::default(),
             s2_right_side: DataRegister::default(),
-            s2_right_edge: DataRegister::default(),
+            s2_right_across: DataRegister::default(),
             s2_right_ac: DataRegister::default(),
+            s2_right_bc: DataRegister::default(),
             s2_right_minus: DataRegister::default(),
             s2_left_from: DataRegister::default(),
             s2_right_from: DataRegister::default(),
@@ -507,14 +528,27 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
             right_on_primary: Wire::default(),
             side_step: Wire::default(),
             side_carry: Wire::default(),
-            edge_along: Wire::default(),
-            right_along: Wire::default(),
             primary_from: Wire::default(),
             primary_carry: Wire::default(),
             edge_from: Wire::default(),
             edge_carry: Wire::default(),
             left_from: Wire::default(),
             right_from: Wire::default(),
+            right_free: Wire::default(),
+            on_to_primary: Wire::default(),
+            on_primary_moves: Wire::default(),
+            on_primary_minus: Wire::default(),
+            on_to_edge: Wire::default(),
+            on_edge_ac: Wire::default(),
+            on_edge_bc: Wire::default(),
+            on_edge_minus: Wire::default(),
+            on_left_moves: Wire::default(),
+            on_to_right: Wire::default(),
+            on_right_side: Wire::default(),
+            on_right_across: Wire::default(),
+            on_right_ac: Wire::default(),
+            on_right_bc: Wire::default(),
+            on_right_minus: Wire::default(),
             right_carry: Wire::default(),
             guard: Constant::new(U::new((W - V - 1) as i64)),
             half: Constant::new(Lanes::new([if W == V + 1 { 0 } else { 1 << (W - V - 2) }; L])),
@@ -531,6 +565,10 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Default for
 impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for Walkers<L, V, W, X> {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, s2_primary_moves);
+        dff_setup!(self, clock, s2_right_bc);
+        dff_setup!(self, clock, s1_primary_moves);
+        dff_setup!(self, clock, s1_right_bc);
         dff_setup!(self, clock, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b);
         dff_setup!(self, clock, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent);
         dff_setup!(self, clock, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b);
@@ -550,7 +588,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s1_to_right,
             s1_rung,
             s1_primary_minus,
-            s1_edge_moves,
+            s1_edge_ac,
             s1_edge_minus
         );
         dff_setup!(
@@ -561,7 +599,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s1_from_base,
             s1_base_takes,
             s1_right_side,
-            s1_right_edge,
+            s1_right_across,
             s1_right_ac,
             s1_right_minus
         );
@@ -573,7 +611,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s2_to_right,
             s2_rung,
             s2_primary_minus,
-            s2_edge_moves,
+            s2_edge_ac,
             s2_edge_minus,
             s2_edge_bc,
             s2_left_moves,
@@ -584,7 +622,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             clock,
             s2_base_takes,
             s2_right_side,
-            s2_right_edge,
+            s2_right_across,
             s2_right_ac,
             s2_right_minus,
             s2_left_from,
@@ -797,17 +835,32 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s1_to_edge.d.next = self.s0_to_edge.q.val();
         self.s1_to_right.d.next = self.s0_to_right.q.val();
         self.s1_rung.d.next = self.s0_rung.q.val();
-        self.s1_primary_minus.d.next = self.s0_primary_minus.q.val();
-        self.s1_edge_moves.d.next = self.s0_edge_moves.q.val();
-        self.s1_edge_minus.d.next = self.s0_edge_minus.q.val();
-        self.s1_edge_bc.d.next = self.s0_edge_bc.q.val();
+        self.s1_primary_minus.d.next =
+            self.s0_rung.q.val() && !self.s0_to_primary.q.val() && self.s0_primary_minus.q.val();
+        self.s1_primary_moves.d.next = self.s0_rung.q.val() && !self.s0_to_primary.q.val();
+        self.s1_edge_ac.d.next =
+            self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && !self.s0_edge_bc.q.val();
+        self.s1_edge_minus.d.next =
+            self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && self.s0_edge_minus.q.val();
+        self.s1_edge_bc.d.next =
+            self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && self.s0_edge_bc.q.val();
         self.s1_left_moves.d.next = self.s0_left_moves.q.val();
         self.s1_from_base.d.next = self.s0_from_base.q.val();
         self.s1_base_takes.d.next = self.s0_base_takes.q.val();
-        self.s1_right_side.d.next = self.s0_right_side.q.val();
-        self.s1_right_edge.d.next = self.s0_right_edge.q.val();
-        self.s1_right_ac.d.next = self.s0_right_ac.q.val();
-        self.s1_right_minus.d.next = self.s0_right_minus.q.val();
+        self.s1_right_side.d.next = self.s0_right_side.q.val() && !self.s0_to_right.q.val();
+        self.right_free.next = !self.s0_to_right.q.val() && !self.s0_right_side.q.val();
+        self.s1_right_across.d.next = self.right_free.val() && self.s0_from_base.q.val();
+        self.s1_right_ac.d.next = self.right_free.val()
+            && !self.s0_from_base.q.val()
+            && self.s0_right_edge.q.val()
+            && self.s0_right_ac.q.val();
+        self.s1_right_bc.d.next = self.right_free.val()
+            && !self.s0_from_base.q.val()
+            && self.s0_right_edge.q.val()
+            && !self.s0_right_ac.q.val();
+        self.s1_right_minus.d.next = self.right_free.val()
+            && (self.s0_from_base.q.val() || self.s0_right_edge.q.val())
+            && self.s0_right_minus.q.val();
         self.s1_climbs.d.next = self.s0_climbs.q.val();
         self.s1_side_minus.d.next = self.s0_side_minus.q.val();
         self.s1_left_from.d.next = self.s0_left_from.q.val();
@@ -887,15 +940,17 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s2_to_right.d.next = self.s1_to_right.q.val();
         self.s2_rung.d.next = self.s1_rung.q.val();
         self.s2_primary_minus.d.next = self.s1_primary_minus.q.val();
-        self.s2_edge_moves.d.next = self.s1_edge_moves.q.val();
+        self.s2_edge_ac.d.next = self.s1_edge_ac.q.val();
         self.s2_edge_minus.d.next = self.s1_edge_minus.q.val();
         self.s2_edge_bc.d.next = self.s1_edge_bc.q.val();
         self.s2_left_moves.d.next = self.s1_left_moves.q.val();
         self.s2_from_base.d.next = self.s1_from_base.q.val();
         self.s2_base_takes.d.next = self.s1_base_takes.q.val();
         self.s2_right_side.d.next = self.s1_right_side.q.val();
-        self.s2_right_edge.d.next = self.s1_right_edge.q.val();
+        self.s2_right_across.d.next = self.s1_right_across.q.val();
         self.s2_right_ac.d.next = self.s1_right_ac.q.val();
+        self.s2_right_bc.d.next = self.s1_right_bc.q.val();
+        self.s2_primary_moves.d.next = self.s1_primary_moves.q.val();
         self.s2_right_minus.d.next = self.s1_right_minus.q.val();
         self.s2_left_from.d.next = self.s1_left_from.q.val();
         self.s2_right_from.d.next = self.s1_right_from.q.val();
@@ -907,56 +962,79 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s2_swap.d.next = self.s1_swap.q.val();
         self.s2_last.d.next = self.s1_last.q.val();
 
-        // s3: what each walker adds.
-        self.s3_primary_step.d.next = self.none.val();
-        self.s3_primary_minus.d.next = false;
+        // s3: what each walker adds: one of these, or its complement.
+        self.on_to_primary.next = self.none.val();
         if self.s2_to_primary.q.val() {
-            self.s3_primary_step.d.next = self.s2_start.q.val();
-        } else if self.s2_rung.q.val() {
-            self.s3_primary_step.d.next = self.d_ab.q.val();
-            if self.s2_primary_minus.q.val() {
-                self.s3_primary_step.d.next = !self.d_ab.q.val();
-                self.s3_primary_minus.d.next = true;
-            }
+            self.on_to_primary.next = self.all.val();
         }
-        self.edge_along.next = self.d_ac.q.val();
-        if self.s2_edge_bc.q.val() {
-            self.edge_along.next = self.d_bc.q.val();
+        self.on_primary_moves.next = self.none.val();
+        if self.s2_primary_moves.q.val() {
+            self.on_primary_moves.next = self.all.val();
         }
-        self.s3_edge_step.d.next = self.none.val();
-        self.s3_edge_minus.d.next = false;
+        self.on_primary_minus.next = self.none.val();
+        if self.s2_primary_minus.q.val() {
+            self.on_primary_minus.next = self.all.val();
+        }
+        self.on_to_edge.next = self.none.val();
         if self.s2_to_edge.q.val() {
-            self.s3_edge_step.d.next = self.s2_start.q.val();
-        } else if self.s2_edge_moves.q.val() {
-            self.s3_edge_step.d.next = self.edge_along.val();
-            if self.s2_edge_minus.q.val() {
-                self.s3_edge_step.d.next = !self.edge_along.val();
-                self.s3_edge_minus.d.next = true;
-            }
+            self.on_to_edge.next = self.all.val();
         }
-        self.s3_left_step.d.next = self.none.val();
+        self.on_edge_ac.next = self.none.val();
+        if self.s2_edge_ac.q.val() {
+            self.on_edge_ac.next = self.all.val();
+        }
+        self.on_edge_bc.next = self.none.val();
+        if self.s2_edge_bc.q.val() {
+            self.on_edge_bc.next = self.all.val();
+        }
+        self.on_edge_minus.next = self.none.val();
+        if self.s2_edge_minus.q.val() {
+            self.on_edge_minus.next = self.all.val();
+        }
+        self.on_left_moves.next = self.none.val();
         if self.s2_left_moves.q.val() {
-            self.s3_left_step.d.next = self.d_side.q.val();
+            self.on_left_moves.next = self.all.val();
         }
-        self.right_along.next = self.d_bc.q.val();
-        if self.s2_from_base.q.val() {
-            self.right_along.next = self.s2_across.q.val();
-        } else if self.s2_right_ac.q.val() {
-            self.right_along.next = self.d_ac.q.val();
-        }
-        self.s3_right_step.d.next = self.none.val();
-        self.s3_right_minus.d.next = false;
+        self.on_to_right.next = self.none.val();
         if self.s2_to_right.q.val() {
-            self.s3_right_step.d.next = self.s2_start.q.val();
-        } else if self.s2_right_side.q.val() {
-            self.s3_right_step.d.next = self.d_side.q.val();
-        } else if self.s2_right_edge.q.val() || self.s2_from_base.q.val() {
-            self.s3_right_step.d.next = self.right_along.val();
-            if self.s2_right_minus.q.val() {
-                self.s3_right_step.d.next = !self.right_along.val();
-                self.s3_right_minus.d.next = true;
-            }
+            self.on_to_right.next = self.all.val();
         }
+        self.on_right_side.next = self.none.val();
+        if self.s2_right_side.q.val() {
+            self.on_right_side.next = self.all.val();
+        }
+        self.on_right_across.next = self.none.val();
+        if self.s2_right_across.q.val() {
+            self.on_right_across.next = self.all.val();
+        }
+        self.on_right_ac.next = self.none.val();
+        if self.s2_right_ac.q.val() {
+            self.on_right_ac.next = self.all.val();
+        }
+        self.on_right_bc.next = self.none.val();
+        if self.s2_right_bc.q.val() {
+            self.on_right_bc.next = self.all.val();
+        }
+        self.on_right_minus.next = self.none.val();
+        if self.s2_right_minus.q.val() {
+            self.on_right_minus.next = self.all.val();
+        }
+        self.s3_primary_step.d.next = (self.on_to_primary.val() & self.s2_start.q.val())
+            | (self.on_primary_moves.val() & (self.d_ab.q.val() ^ self.on_primary_minus.val()));
+        self.s3_primary_minus.d.next = self.s2_primary_minus.q.val();
+        self.s3_edge_step.d.next = ((self.on_to_edge.val() & self.s2_start.q.val())
+            | (self.on_edge_ac.val() & self.d_ac.q.val())
+            | (self.on_edge_bc.val() & self.d_bc.q.val()))
+            ^ self.on_edge_minus.val();
+        self.s3_edge_minus.d.next = self.s2_edge_minus.q.val();
+        self.s3_left_step.d.next = self.on_left_moves.val() & self.d_side.q.val();
+        self.s3_right_step.d.next = ((self.on_to_right.val() & self.s2_start.q.val())
+            | (self.on_right_side.val() & self.d_side.q.val()))
+            | (((self.on_right_across.val() & self.s2_across.q.val())
+                | (self.on_right_ac.val() & self.d_ac.q.val())
+                | (self.on_right_bc.val() & self.d_bc.q.val()))
+                ^ self.on_right_minus.val());
+        self.s3_right_minus.d.next = self.s2_right_minus.q.val();
         self.s3_rung.d.next = self.s2_rung.q.val();
         self.s3_to_primary.d.next = self.s2_to_primary.q.val();
         self.s3_to_edge.d.next = self.s2_to_edge.q.val();
@@ -1116,4 +1194,4 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_moves, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_edge, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_moves, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_edge, s2_right_ac, s2_right_minus, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, sent_left_vertex, sent_right_vertex, s0_load, s0_bus, s0_to_primary, s0_to_edge, s0_to_right, s0_rung, s0_primary_minus, s0_edge_moves, s0_edge_minus, s0_edge_bc, s0_left_moves, s0_from_base, s0_base_takes, s0_right_side, s0_right_edge, s0_right_ac, s0_right_minus, s0_climbs, s0_side_minus, s0_left_from, s0_right_from, s0_valid, s0_kind, s0_left, s0_right, s0_keep, s0_swap, s0_last, s1_bus_a, s1_bus_b, s1_bus_c, s1_bus_ab, s1_bus_ac, s1_bus_bc, s1_bus_origin, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b, s3_right_from_c, s3_right_from_walker, s3_right_from_edge, s3_right_from_primary, s3_right_sent, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent }
+watched! { [const L: usize, const V: usize, const W: usize, const X: usize] Walkers<L, V, W, X>: corner_a, corner_b, corner_c, step_ab, step_ac, step_bc, start_ab, start_ac, start_bc, a_hi_ab, a_hi_ac, b_hi_bc, side, sweep, base_b, op_valid, op_code, op_left, op_right, op_second, op_on_bc, op_at_end, op_climbs, op_falls, op_column_edge, op_edge, op_right_edge, op_advance, op_turn, op_keep, op_swap, op_last;; va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load, s1_to_primary, s1_to_edge, s1_to_right, s1_rung, s1_primary_minus, s1_edge_ac, s1_edge_minus, s1_edge_bc, s1_left_moves, s1_from_base, s1_base_takes, s1_right_side, s1_right_across, s1_right_ac, s1_right_minus, s1_climbs, s1_side_minus, s1_left_from, s1_right_from, s1_valid, s1_kind, s1_left, s1_right, s1_keep, s1_swap, s1_last, s2_start, s2_across, s2_to_primary, s2_to_edge, s2_to_right, s2_rung, s2_primary_minus, s2_edge_ac, s2_edge_minus, s2_edge_bc, s2_left_moves, s2_from_base, s2_base_takes, s2_right_side, s2_right_across, s2_right_ac, s2_right_minus, s2_left_from, s2_right_from, s2_valid, s2_kind, s2_left, s2_right, s2_keep, s2_swap, s2_last, s3_primary_step, s3_edge_step, s3_left_step, s3_right_step, s3_primary_minus, s3_edge_minus, s3_right_minus, s3_rung, s3_to_primary, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_valid, s3_kind, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker, right_walker, edge_walker, edge_before, s4_base_takes, sent_left_vertex, sent_right_vertex, s0_load, s0_bus, s0_to_primary, s0_to_edge, s0_to_right, s0_rung, s0_primary_minus, s0_edge_moves, s0_edge_minus, s0_edge_bc, s0_left_moves, s0_from_base, s0_base_takes, s0_right_side, s0_right_edge, s0_right_ac, s0_right_minus, s0_climbs, s0_side_minus, s0_left_from, s0_right_from, s0_valid, s0_kind, s0_left, s0_right, s0_keep, s0_swap, s0_last, s1_bus_a, s1_bus_b, s1_bus_c, s1_bus_ab, s1_bus_ac, s1_bus_bc, s1_bus_origin, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b, s3_right_from_c, s3_right_from_walker, s3_right_from_edge, s3_right_from_primary, s3_right_sent, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent, s1_right_bc, s1_primary_moves, s2_right_bc, s2_primary_moves }
