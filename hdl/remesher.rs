@@ -8,8 +8,8 @@
 //! ```
 //! (Gumhold & Huettner 1999, section 3, with the amendments that make it a tiling; see docs/blocks/remesher.md.)
 //!
-//! Interval: one step a cycle, but a base triangle takes max(3 W + 28, 2 W + 3 L + 48) cycles at most in
-//! its set-up, which it waits for. Latency: 10 more. A stall of `out` stops the sweep by way of the queue; the walkers, which
+//! Interval: one step a cycle, but a base triangle takes max(3 W + 31, 2 W + 3 L + 56) cycles at most in
+//! its set-up, which it waits for. Latency: 11 more. A stall of `out` stops the sweep by way of the queue; the walkers, which
 //! hold the wide registers, never stall.
 //!
 //! | port            | format           | range |

@@ -6,11 +6,11 @@
 //! so that a walk from lo (V[lo] * 2^g + 2^(g-1), step +D) and one from hi (start, step -D) meet the same bits.
 //! Edges of n <= 1 have no vertex between their corners and are skipped.
 //!
-//! | port            | format       | range |   Latency 3 (W + 3) + 3 at most
-//! | start           | Bit          | one cycle; AB stands still from the cycle before to the one behind, the rest until `busy` falls |
+//! | port            | format       | range |   Latency 3 (W + 3) + 4 at most
+//! | start           | Bit          | one cycle; AB stands still from the cycle behind it for four, the rest until `busy` falls |
 //! | corner_*        | L x signed V | whole | Golden: models::remesher (edge)   Error: |D - exact| <= 1/2
 //! | n_*             | signed T     | >= 0  |
-//! | step_*, start_* | L x signed W | |
+//! | step_*, start_* | L x signed W | they stand two cycles behind `busy` |
 //!
 //! The difference for the next division is taken while the divider is at work, and the start of the walk from hi behind it.
 

@@ -15,12 +15,12 @@
 //! | p6    | difference of two products, or sum with the base vertex |
 //! | p7    | numerator |
 //!
-//! | port              | format       | range |   Latency 2 (W + 3) + 2 L + 9, plus L + 9 for a roof
-//! | start             | Bit          | one cycle; data stand still from the cycle before until `busy` falls |
+//! | port              | format       | range |   Latency 2 (W + 3) + 2 L + 12, plus L + 12 for a roof
+//! | start             | Bit          | one cycle; data stand still until `busy` falls, the scalars from the cycle before, the corners from the second one behind |
 //! | corner_*          | L x signed V | whole | Golden: models::remesher (setup)
 //! | s_*, d_*          | signed T     |       | Error: |difference - exact| <= 1/2
 //! | area2             | signed A     | >= 0; 0 skips the unit: no interior vertex exists |
-//! | side, sweep, base_b | L x signed W | wrap when they do not fit: then no interior vertex exists |
+//! | side, sweep, base_b | L x signed W | stand two cycles behind `busy`; wrap when they do not fit: then no interior vertex exists |
 
 use crate::prelude::*;
 use crate::remesher::LaneDivider;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Queue in front of the step port: a stall of the reader never reaches the walkers, only the sweep, and that in time.
 //!
-//! `room` falls while eight beats or more wait, and the sweep stops. Up to eight more are under way by then: a
-//! micro-operation is seven cycles in sweep, walkers and commands, and `room` is one old. Sixteen places hold them all.
+//! `room` falls while seven beats or more wait, and the sweep stops. Up to nine more are under way by then: a
+//! micro-operation is eight cycles in sweep, walkers, commands and on its way to the memories, and `room` is one old. Sixteen places hold them all.
 //!
 //! | port  | format   |   Latency 2, interval 1
 //! | in_*  | -        | beats; vertices stand beside the other fields |

@@ -7,7 +7,7 @@
 //! lies above AB, and s where C lies below A (decreasing), after which A and B change places and the triangle is an
 //! increasing one. All coordinates leave relative to A. (Gumhold & Huettner 1999, section 3.1, amended.)
 //!
-//! | port          | format        | range |   Latency 18, then the slower of edge_setup and interior_setup
+//! | port          | format        | range |   Latency 19, then the slower of edge_setup and interior_setup
 //! | in_*          | stream        | corners 3 x signed N, vertex data L x signed V |
 //! | record_*      | stream        | stands still from `record_valid` to `record_ready` |
 //! | s_*, d_*, n_* | signed T      | relative to A, mirrored | Golden: models::remesher (setup)   Error 0

@@ -144,7 +144,7 @@ pub const CONTRACTS: [Contract; 28] = [
         reach: 0,
         faults: &[
             fault(Property::Answered, "step_queue", "held_d = 1'b1", "held_d = held_q"),
-            fault(Property::Room, "step_queue", "waiting_q < 5'd8", "waiting_q < 5'd15"),
+            fault(Property::Room, "step_queue", "waiting_q < 5'd7", "waiting_q < 5'd15"),
         ],
         ..NONE
     },

@@ -13,6 +13,19 @@ use std::collections::{BTreeMap, HashMap, HashSet};
 
 use serde_json::{Map, Value, json};
 
+use super::target::Target;
+
+/// The blocks whose controls get copies: those of more lanes than a wire crosses in half a cycle. The others reach their clock without.
+const BLOCKS: &[&str] = &["remesher"];
+
+/// How nextpnr places a block with copies: time weighs more than the length of wires.
+pub const PLACER: &[&str] = &["--placer-heap-timingweight", "30"];
+
+/// Whether a block, on a part of these cells, gets copies.
+pub fn wanted(block: &str, target: &Target) -> bool {
+    BLOCKS.contains(&block) && target.pass.starts_with("synth_ecp5")
+}
+
 /// Readers that a register keeps.
 const READERS: usize = 24;
 /// Fewer are divided, too, where they are spread over more than this part of all lanes.

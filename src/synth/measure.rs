@@ -12,6 +12,7 @@ use relief_testbench::check::emission;
 use serde::{Deserialize, Serialize};
 use tempfile::TempDir;
 
+use super::copies;
 use super::harness;
 use super::nextpnr::{self, Routed, round};
 use super::path::CriticalPath;
@@ -116,15 +117,17 @@ impl<'b> Bench<'b> {
     /// A sentence: synthesis failed. That a block does not fit is no error, but what the row says.
     pub fn measure(&self, target: &Target, tools: &Tools, seeds: u64) -> Result<Row, String> {
         let (folder, sources) = (self.folder(), self.sources());
-        let counts = yosys::map(&tools.yosys, folder, &sources, self.top(), target)?;
+        let copied = copies::wanted(self.block.name(), target);
+        let counts = yosys::map(&tools.yosys, folder, &sources, self.top(), target, copied)?;
         let mut row = self.row(target, tools, counts);
         let (Some(nextpnr), Ok(route), None) = (&tools.nextpnr, &target.route, &row.no_clock) else {
             return Ok(row);
         };
         let harness = harness::name(self.emission.top_module());
-        yosys::link(&tools.yosys, folder, &sources, (self.top(), &harness), target)?;
+        yosys::link(&tools.yosys, folder, &sources, (self.top(), &harness), target, copied)?;
+        let options = if copied { copies::PLACER } else { &[] };
         let runs: Result<Vec<Routed>, String> =
-            (1..=seeds).into_par_iter().map(|seed| nextpnr::run(nextpnr, folder, route, seed)).collect();
+            (1..=seeds).into_par_iter().map(|seed| nextpnr::run(nextpnr, folder, route, options, seed)).collect();
         match runs {
             Ok(runs) => row.set_clock(runs, cycles(self.block.interval())),
             Err(reason) => row.no_clock = Some(reason),

@@ -113,18 +113,18 @@ pub(crate) fn round(value: f64, parts: f64) -> f64 {
     (value * parts).round() / parts
 }
 
-/// Places and routes the netlist of a folder.
+/// Places and routes the netlist of a folder, with options beside those of the part.
 ///
 /// # Errors
 /// A sentence: mostly that it found no place for everything.
-pub fn run(nextpnr: &Program, folder: &Path, route: &Route, seed: u64) -> Result<Routed, String> {
+pub fn run(nextpnr: &Program, folder: &Path, route: &Route, options: &[&str], seed: u64) -> Result<Routed, String> {
     let report = format!("report_{seed}.json");
     if let Some(pins) = route.pins {
         fs::write(folder.join("pins.cst"), pins).map_err(|error| format!("the file of pins: {error}"))?;
     }
     let (what, seed) = (format!("{}, seed {seed}", route.program), seed.to_string());
     let mut command = Command::new(&nextpnr.path);
-    command.args(route.arguments).args(["--json", NETLIST, "--report", &report, "--seed", &seed]);
+    command.args(route.arguments).args(options).args(["--json", NETLIST, "--report", &report, "--seed", &seed]);
     command.args(["--freq", STRIVE_MHZ, "--timing-allow-fail", "-q"]).current_dir(folder);
     let finished = program::run(&mut command, &what, LIMIT).map_err(|error| error.to_string())?;
     if !finished.status.success() {

@@ -9,6 +9,7 @@ use std::time::Duration;
 
 use relief_testbench::cosim::{count_cells, program};
 
+use super::copies;
 use super::pack::output_registers;
 use super::programs::Program;
 use super::target::{Resource, Target};
@@ -55,7 +56,14 @@ impl Counts {
 ///
 /// # Errors
 /// A sentence, and what Yosys said.
-pub fn map(yosys: &Program, folder: &Path, sources: &[String], top: &str, target: &Target) -> Result<Counts, String> {
+pub fn map(
+    yosys: &Program,
+    folder: &Path,
+    sources: &[String],
+    top: &str,
+    target: &Target,
+    copied: bool,
+) -> Result<Counts, String> {
     let Target { pass, inner, .. } = target;
     let sources = sources.join(" ");
     // Only the block: the library of cells would be defined twice where this is read again.
@@ -63,7 +71,7 @@ pub fn map(yosys: &Program, folder: &Path, sources: &[String], top: &str, target
         "read_verilog -sv {sources}; {pass} {inner} -top {top}; write_json {COUNTED}; select {top}; write_rtlil -selected {BLOCK}"
     );
     run(yosys, folder, &script, &format!("synthesizing `{top}` for {} with Yosys", target.name))?;
-    pack(folder, COUNTED, top)?;
+    pack(folder, COUNTED, top, copied.then_some(""))?;
     let netlist = fs::read(folder.join(COUNTED)).map_err(|error| format!("the netlist of `{top}`: {error}"))?;
     let cells = count_cells(&netlist, top).map_err(|reason| format!("the netlist of `{top}`: {reason}"))?;
     Ok(Counts::of(&cells, target))
@@ -80,6 +88,7 @@ pub fn link(
     sources: &[String],
     (top, harness): (&str, &str),
     target: &Target,
+    copied: bool,
 ) -> Result<(), String> {
     let (pass, sources) = (target.pass, sources.join(" "));
     let script = format!(
@@ -88,16 +97,21 @@ pub fn link(
     );
     run(yosys, folder, &script, &format!("synthesizing `{harness}` for {} with Yosys", target.name))?;
     // The same registers as in the block alone: neither they nor what they read are of the harness.
-    pack(folder, NETLIST, harness)
+    pack(folder, NETLIST, harness, copied.then_some("block."))
 }
 
-/// Packs the registers of the netlist `file`.
-fn pack(folder: &Path, file: &str, top: &str) -> Result<(), String> {
+/// Packs the registers of the netlist `file`, and makes copies among the cells whose name begins with `copied`.
+fn pack(folder: &Path, file: &str, top: &str, copied: Option<&str>) -> Result<(), String> {
     let path = folder.join(file);
     let fail = |reason: String| format!("the netlist of `{top}`: {reason}");
     let bytes = fs::read(&path).map_err(|error| fail(error.to_string()))?;
     let mut netlist = serde_json::from_slice(&bytes).map_err(|error| fail(error.to_string()))?;
-    if output_registers(&mut netlist, top).map_err(fail)? > 0 {
+    let packed = output_registers(&mut netlist, top).map_err(fail)?;
+    let copies = match copied {
+        Some(inside) => copies::of_what_many_read(&mut netlist, top, inside).map_err(fail)?,
+        None => 0,
+    };
+    if packed + copies > 0 {
         fs::write(&path, netlist.to_string()).map_err(|error| fail(error.to_string()))?;
     }
     Ok(())

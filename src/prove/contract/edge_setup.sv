@@ -8,8 +8,9 @@
         same <= reset || state == 0 || state != was ? 0 : same + 1;
     end
     always @* if (started) begin
-        answered_runs: assert (\block.running_q == (\block.divider.working_q || \block.finished_q )
-            && !(\block.divider.working_q && \block.finished_q ) && (state != 0 || !\block.running_q ));
+        answered_runs: assert (\block.running_q == \block.divider.working_q
+            && !(\block.divider.working_q && \block.finished_q ) && (state != 0 || !\block.running_q )
+            && \block.begun_q == \block.divider.begun_q && (!\block.due_q || state != 0));
         answered_steps: assert (\block.divider.last_q == (\block.divider.working_q && \block.divider.count_q == 1)
             && (!\block.divider.working_q || (\block.divider.count_q >= 1 && \block.divider.count_q <= 8)));
         answered_order: assert (state == was || state == 0 || state > was);

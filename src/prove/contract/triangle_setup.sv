@@ -9,7 +9,7 @@
     end
     always @* if (started) begin
         answered_order: assert (state == was || state == 0 || state > was);
-        answered_states: assert (state < 14);
+        answered_states: assert (state < 15);
         answered_in_time: assert (same <= 8);
         reached_1: cover (state == 1);
         reached_2: cover (state == 2);
@@ -24,4 +24,5 @@
         reached_11: cover (state == 11);
         reached_12: cover (state == 12);
         reached_13: cover (state == 13);
+        reached_14: cover (state == 14);
     end
