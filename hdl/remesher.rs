@@ -8,7 +8,7 @@
 //! ```
 //! (Gumhold & Huettner 1999, section 3, with the amendments that make it a tiling; see docs/blocks/remesher.md.)
 //!
-//! Interval: one step a cycle, but a base triangle takes max(3 W + 31, 2 W + 3 L + 56) cycles at most in
+//! Interval: one step a cycle, but a base triangle takes max(3 W + 31, 2 W + 3 L + 58) cycles at most in
 //! its set-up, which it waits for. Latency: 11 more. A stall of `out` stops the sweep by way of the queue; the walkers, which
 //! hold the wide registers, never stall.
 //!

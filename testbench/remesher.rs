@@ -134,10 +134,10 @@ impl Binding for RemesherBinding {
         "sweeps base triangles into the steps of one-voxel triangle strips"
     }
     fn latency(&self) -> &'static str {
-        "max(3 W + 31, 2 W + 3 L + 56) + 11 at most"
+        "max(3 W + 31, 2 W + 3 L + 58) + 11 at most"
     }
     fn interval(&self) -> &'static str {
-        "one step a cycle; max(3 W + 31, 2 W + 3 L + 56) a base triangle of few steps"
+        "one step a cycle; max(3 W + 31, 2 W + 3 L + 58) a base triangle of few steps"
     }
     fn error(&self) -> &'static str {
         "edge n 2^-(g+1), interior (i+j) 2^-(g+1), and 1/2 of the rounding"

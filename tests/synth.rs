@@ -274,9 +274,9 @@ fn synth_harness_keeps_every_cell_of_the_block() -> Outcome {
     let ecp5 = target::find("ecp5-85k")?;
     let bench = Bench::new(block("sat_build"), small())?;
     let yosys = programs::yosys(false)?;
-    let alone = yosys::map(&yosys, bench.folder(), &bench.sources(), bench.top(), ecp5)?;
+    let alone = yosys::map(&yosys, bench.folder(), &bench.sources(), bench.top(), ecp5, false)?;
     let around = format!("{}_harness", bench.top());
-    yosys::link(&yosys, bench.folder(), &bench.sources(), (bench.top(), &around), ecp5)?;
+    yosys::link(&yosys, bench.folder(), &bench.sources(), (bench.top(), &around), ecp5, false)?;
     let cells = count_cells(&fs::read(bench.folder().join(NETLIST))?, &around)?;
     let emission = emission(block("sat_build"), small())?;
     let ports = &emission.top_module().ports;

@@ -15,7 +15,7 @@
 //! | p6    | difference of two products, or sum with the base vertex |
 //! | p7    | numerator |
 //!
-//! | port              | format       | range |   Latency 2 (W + 3) + 2 L + 12, plus L + 12 for a roof
+//! | port              | format       | range |   Latency 2 (W + 3) + 2 L + 13, plus L + 13 for a roof
 //! | start             | Bit          | one cycle; data stand still until `busy` falls, the scalars from the cycle before, the corners from the second one behind |
 //! | corner_*          | L x signed V | whole | Golden: models::remesher (setup)
 //! | s_*, d_*          | signed T     |       | Error: |difference - exact| <= 1/2
@@ -65,6 +65,8 @@ pub struct InteriorSetup<const L: usize, const V: usize, const W: usize, const T
     /// Products issued in this round: lane `count >> 1`, first or second product; for the base vertex lane `count`.
     count: Register<U<6>>,
     issuing: Register<Bit>,
+    /// They begin in the next cycle.
+    goes: Register<Bit>,
     finished: Register<Bit>,
     /// And one and two cycles later: the quotients are kept.
     side_soon: DataRegister<Bit>,
@@ -185,6 +187,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             state: Register::default(),
             count: Register::default(),
             issuing: Register::default(),
+            goes: Register::default(),
             finished: Register::default(),
             side_soon: DataRegister::default(),
             sweep_soon: DataRegister::default(),
@@ -278,6 +281,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, goes);
         dff_setup!(self, clock, puts_base, puts_numerator);
         dff_setup!(self, clock, at_valid, at_second, at_lane, at_factor, at_span);
         dff_setup!(self, clock, sums_soon, takes_soon, starts_soon);
@@ -365,6 +369,10 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             self.p1_quotient.d.next = self.side_reg.q.val().get_bit(self.near_lane.q.val().index());
         } else {
             self.p1_quotient.d.next = self.sweep_reg.q.val().get_bit(self.near_lane.q.val().index());
+        }
+        self.goes.d.next = false;
+        if self.goes.q.val() {
+            self.issuing.d.next = true;
         }
         if self.issuing.q.val() {
             self.count.d.next = self.count.q.val() + 1;
@@ -495,13 +503,13 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
             self.count.d.next = 0.into();
             if self.start.val() && self.has_area.q.val() {
                 self.state.d.next = InteriorState::SideProducts;
-                self.issuing.d.next = true;
+                self.goes.d.next = true;
             }
         } else if self.state.q.val() == InteriorState::SideProducts {
             if self.complete.q.val() {
                 self.divider.start.next = true;
                 self.state.d.next = InteriorState::SideQuotient;
-                self.issuing.d.next = true;
+                self.goes.d.next = true;
                 self.count.d.next = 0.into();
             }
         } else if self.state.q.val() == InteriorState::SideQuotient {
@@ -510,7 +518,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
                 // 2 L + 8 cycles of products are over before the W + 2 of the division: the numerators are there.
                 self.divider.start.next = true;
                 self.state.d.next = InteriorState::SweepQuotient;
-                self.issuing.d.next = self.roof.val();
+                self.goes.d.next = self.roof.val();
                 self.count.d.next = 0.into();
             }
         } else if self.state.q.val() == InteriorState::SweepQuotient {
@@ -519,7 +527,7 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
                 self.state.d.next = InteriorState::Idle;
                 if self.roof.val() {
                     self.state.d.next = InteriorState::BaseProducts;
-                    self.issuing.d.next = true;
+                    self.goes.d.next = true;
                     self.count.d.next = 0.into();
                 }
             }
@@ -535,4 +543,4 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider, side_soon, sweep_soon, takes_side, takes_sweep_quotient, near_valid, near_second, near_lane, p7_lane, p7_numerator, p7_origin, sums_soon, takes_soon, starts_soon, at_valid, at_second, at_lane, at_factor, at_span, puts_base, puts_numerator }
+watched! { [const L: usize, const V: usize, const W: usize, const T: usize, const A: usize, const P: usize] InteriorSetup<L, V, W, T, A, P>: start, corner_a, corner_b, corner_c, s_b, s_c, d_b, d_c, area2, roof; part_0, part_1, part_2, divider; state, count, issuing, finished, sums_base, takes_sweep, starts_base, has_area, p0_valid, p0_second, p0_lane, p1_valid, p1_second, p1_lane, p1_a, p1_b, p1_c, p1_quotient, p2_valid, p2_second, p2_lane, p2_factor, p2_span, p3_valid, p3_second, p3_lane, p4_valid, p4_second, p4_lane, p4_low, p4_high, p4_origin, p4_base, p5_valid, p5_second, p5_lane, p5_product, p5_base, p6_valid, p6_second, p6_lane, p6_first, p6_difference, p6_origin, complete, high, low, side_reg, sweep_reg, base_reg, part_0, part_1, part_2, divider, side_soon, sweep_soon, takes_side, takes_sweep_quotient, near_valid, near_second, near_lane, p7_lane, p7_numerator, p7_origin, sums_soon, takes_soon, starts_soon, at_valid, at_second, at_lane, at_factor, at_span, puts_base, puts_numerator, goes }

@@ -104,10 +104,11 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     /// while nothing is shut, and change places; or stand.
     turns_bc: Register<Bit>,
     turns_ca: Register<Bit>,
-    swaps: Register<Bit>,
     v_shut: Register<Bit>,
     /// The same a cycle before.
     shut: Register<Bit>,
+    rests: Register<Bit>,
+    c_rests: Register<Bit>,
     v_turns_bc: DataRegister<Bit>,
     v_turns_ca: DataRegister<Bit>,
     v_rests: Register<Bit>,
@@ -161,6 +162,7 @@ pub struct TriangleSetup<const L: usize, const V: usize, const N: usize, const T
     exchange: Wire<Bit>,
     /// The next cycle is `Idle`, or `Idle` goes on.
     opens: Wire<Bit>,
+    turns: Wire<Bit>,
     axis: Wire<U<2>>,
     side_axis: Wire<U<2>>,
     other_axis: Wire<U<2>>,
@@ -171,9 +173,10 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
 {
     #[hdl_gen]
     fn update(&mut self) {
+        dff_setup!(self, clock, rests, c_rests);
         dff_setup!(self, clock, were_busy);
         dff_setup!(self, clock, shut);
-        dff_setup!(self, clock, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests);
+        dff_setup!(self, clock, turns_bc, turns_ca, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests);
         dff_setup!(
             self, clock, state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc,
             ab_ca, bc_ca
@@ -269,16 +272,17 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.exchange.next = false;
         self.turns_bc.d.next = false;
         self.turns_ca.d.next = false;
-        self.swaps.d.next = false;
         self.opens.next = (self.state.q.val() == SetupState::Idle && !self.in_valid.val())
             || (self.state.q.val() == SetupState::Wait && !self.were_busy.q.val() && self.record_ready.val());
         self.shut.d.next = !self.opens.val();
         self.v_shut.d.next = self.shut.q.val();
         self.v_turns_bc.d.next = self.turns_bc.q.val();
         self.v_turns_ca.d.next = self.turns_ca.q.val();
-        self.v_rests.d.next =
-            self.shut.q.val() && !(self.turns_bc.q.val() || self.turns_ca.q.val() || self.swaps.q.val());
-        self.vc_rests.d.next = self.shut.q.val() && !(self.turns_bc.q.val() || self.turns_ca.q.val());
+        self.turns.next = self.state.q.val() == SetupState::Rotate
+            && (self.longest_bc.q.val() || self.longest_ca.q.val());
+        self.c_rests.d.next = !(self.opens.val() || self.turns.val());
+        self.v_rests.d.next = self.rests.q.val();
+        self.vc_rests.d.next = self.c_rests.q.val();
         self.va.enable.next = !self.v_rests.q.val();
         self.vb.enable.next = !self.v_rests.q.val();
         self.vc.enable.next = !self.vc_rests.q.val();
@@ -454,10 +458,10 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                 }
             }
         }
+        self.rests.d.next = !(self.opens.val() || self.turns.val() || self.exchange.val());
         if self.exchange.val() {
             self.pa.d.next = self.pb.q.val();
             self.pb.d.next = self.pa.q.val();
-            self.swaps.d.next = true;
             self.len_bc.d.next = self.len_ca.q.val();
             self.len_ca.d.next = self.len_bc.q.val();
             self.dir_bc.d.next = self.dir_ca.q.val();
@@ -471,4 +475,4 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
     }
 }
 
-watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca, turns_bc, turns_ca, swaps, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests, shut, were_busy }
+watched! { [const L: usize, const V: usize, const N: usize, const T: usize, const A: usize] TriangleSetup<L, V, N, T, A>: in_valid, in_p0, in_p1, in_p2, in_v0, in_v1, in_v2, units_busy, record_ready; multiplier, edge_ab, edge_bc, edge_ca; state, round, pa, pb, pc, va, vb, vc, len_ab, len_bc, len_ca, dir_ab, dir_bc, dir_ca, ab_bc, ab_ca, bc_ca, odd, decreasing, is_roof, sb, sc, db, dc, area, db_other, dc_other, product, factor_a, factor_b, area_other, longest_bc, longest_ca, backwards, negative, negative_other, takes_other, hi_ac, hi_bc, a_along_ab, b_along_ab, a_along_ca, c_along_ca, b_along_bc, c_along_bc, multiplier, edge_ab, edge_bc, edge_ca, turns_bc, turns_ca, v_shut, v_turns_bc, v_turns_ca, v_rests, vc_rests, shut, were_busy, rests, c_rests }
