@@ -6,6 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use relief::synth::copies::of_what_many_read;
 use relief::synth::figures::{FIGURES, Figures, between_marks};
 use relief::synth::measure::{Bench, Row, Tools, cycles};
 use relief::synth::pack::output_registers;
@@ -131,6 +132,48 @@ fn synth_counts_what_cells_take() -> Outcome {
     assert_eq!((counts, counts.excess(target::find("xc7")?)), (Counts([13, 3, 5, 4]), None));
     let kinds = [("LUT2", 5), ("ALU", 2), ("DFFRE", 3), ("SDPB", 2), ("MULT18X18", 4), ("IBUF", 1), ("MUX2_LUT5", 8)];
     assert_eq!(Counts::of(&cells(&kinds), target::find("gowin")?), Counts([7, 3, 2, 4]));
+    Ok(())
+}
+
+/// A control in two registers that a vector of lanes waits for: the second one gets copies, each with neighbours to serve, and
+/// with them the first one more to feed. What leaves the block stays.
+#[test]
+fn synth_copies_what_many_read() -> Outcome {
+    let mut cells = serde_json::Map::new();
+    let mut register = |name: String, d: u64, q: u64, enable: Value| {
+        let cell = json!({
+            "type": "TRELLIS_FF",
+            "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "Q": "output"},
+            "connections": {"CLK": [2], "CE": [enable], "DI": [d], "Q": [q]},
+        });
+        cells.insert(name, cell);
+    };
+    register("first".into(), 3, 4, json!("1"));
+    register("second".into(), 4, 5, json!("1"));
+    (0..96).for_each(|k| register(format!("lane{k:02}"), 100 + k, 200 + k, json!(5)));
+    let lanes: Vec<u64> = (200..296).collect();
+    let mut netlist = json!({"modules": {"top": {
+        "ports": {"clock": {"direction": "input", "bits": [2]}, "in": {"direction": "input", "bits": [3]}, "out": {"direction": "output", "bits": lanes}},
+        "cells": cells,
+        "netnames": {"lanes_q": {"hide_name": 0, "bits": lanes}},
+    }}});
+    assert_eq!(of_what_many_read(&mut netlist, "top", ""), Ok(3));
+    let cells = netlist["modules"]["top"]["cells"].as_object().ok_or("no cells")?;
+    assert_eq!(cells.len(), 101);
+    let served = |name: &str| -> Vec<usize> {
+        let own = &cells[name]["connections"]["Q"][0];
+        (0..96).filter(|k| cells[&format!("lane{k:02}")]["connections"]["CE"][0] == *own).collect()
+    };
+    let mut all = Vec::new();
+    for name in cells.keys().filter(|name| name.starts_with("second")) {
+        let own = served(name);
+        assert_eq!(own, (own[0]..own[0] + 24).collect::<Vec<_>>(), "{name}: neighbours");
+        assert_eq!(cells[name]["connections"]["DI"], json!([4]), "{name}");
+        all.extend(own);
+    }
+    all.sort_unstable();
+    assert_eq!(all, (0..96).collect::<Vec<_>>());
+    assert_eq!(of_what_many_read(&mut netlist, "top", ""), Ok(0), "it is done once");
     Ok(())
 }
 

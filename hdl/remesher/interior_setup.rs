@@ -465,25 +465,24 @@ impl<const L: usize, const V: usize, const W: usize, const T: usize, const A: us
 
         // To its lane.
         self.puts_base.d.next = self.p6_valid.q.val() && self.sums_base.q.val();
-        self.puts_numerator.d.next =
-            self.p6_valid.q.val() && self.p6_second.q.val() && !self.sums_base.q.val();
+        self.puts_numerator.d.next = self.p6_valid.q.val() && self.p6_second.q.val() && !self.sums_base.q.val();
         if self.puts_base.q.val() {
             self.base_reg.d.next =
                 self.base_reg.q.val().replace_bit(self.p7_lane.q.val().index(), self.p7_origin.q.val());
         }
         if self.puts_numerator.q.val() {
-                self.high.d.next = self.high.q.val().replace_bit(
-                    self.p7_lane.q.val().index(),
-                    bit_cast_to::<S<A>>(self.p7_numerator.q.val() >> self.quotient_bits.val()),
-                );
-                self.low.d.next = self
-                    .low
-                    .q
-                    .val()
-                    .replace_bit(self.p7_lane.q.val().index(), bit_cast_to::<S<W>>(self.p7_numerator.q.val()));
+            self.high.d.next = self.high.q.val().replace_bit(
+                self.p7_lane.q.val().index(),
+                bit_cast_to::<S<A>>(self.p7_numerator.q.val() >> self.quotient_bits.val()),
+            );
+            self.low.d.next = self
+                .low
+                .q
+                .val()
+                .replace_bit(self.p7_lane.q.val().index(), bit_cast_to::<S<W>>(self.p7_numerator.q.val()));
         }
-        self.complete.d.next = (self.puts_base.q.val() || self.puts_numerator.q.val())
-            && self.p7_lane.q.val() == self.last_lane.val();
+        self.complete.d.next =
+            (self.puts_base.q.val() || self.puts_numerator.q.val()) && self.p7_lane.q.val() == self.last_lane.val();
 
         self.divider.high.next = self.high.q.val();
         self.divider.low.next = self.low.q.val();

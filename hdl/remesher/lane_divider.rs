@@ -157,8 +157,7 @@ impl<const L: usize, const Q: usize, const R: usize> Logic for LaneDivider<L, Q,
         // Digits +1 / -1 to two's complement: the bits of the signs, twice that and one; and one less where the
         // remainder is made good, which clears that one. So the last step shifts in a sign, too.
         self.bits.enable.next = self.moves.q.val();
-        self.bits.d.next =
-            (self.bits.q.val() << 1) | (bit_cast_to::<Lanes<L, Q>>(!self.sign.val()) & self.one_q.val());
+        self.bits.d.next = (self.bits.q.val() << 1) | (bit_cast_to::<Lanes<L, Q>>(!self.sign.val()) & self.one_q.val());
         if self.loads.q.val() {
             self.partial.d.next = self.high.val();
             self.bits.d.next = self.low.val();

@@ -278,8 +278,8 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
         self.v_shut.d.next = self.shut.q.val();
         self.v_turns_bc.d.next = self.turns_bc.q.val();
         self.v_turns_ca.d.next = self.turns_ca.q.val();
-        self.turns.next = self.state.q.val() == SetupState::Rotate
-            && (self.longest_bc.q.val() || self.longest_ca.q.val());
+        self.turns.next =
+            self.state.q.val() == SetupState::Rotate && (self.longest_bc.q.val() || self.longest_ca.q.val());
         self.c_rests.d.next = !(self.opens.val() || self.turns.val());
         self.v_rests.d.next = self.rests.q.val();
         self.vc_rests.d.next = self.c_rests.q.val();

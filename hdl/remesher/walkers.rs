@@ -569,14 +569,85 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         dff_setup!(self, clock, s2_right_bc);
         dff_setup!(self, clock, s1_primary_moves);
         dff_setup!(self, clock, s1_right_bc);
-        dff_setup!(self, clock, s4_left_from_a, s4_left_from_b, s4_left_from_c, s4_left_from_walker, s4_left_from_edge, s4_left_sent, s4_right_from_a, s4_right_from_b);
-        dff_setup!(self, clock, s4_right_from_c, s4_right_from_walker, s4_right_from_edge, s4_right_from_primary, s4_right_sent);
-        dff_setup!(self, clock, s3_left_from_a, s3_left_from_b, s3_left_from_c, s3_left_from_walker, s3_left_from_edge, s3_left_sent, s3_right_from_a, s3_right_from_b);
-        dff_setup!(self, clock, s3_right_from_c, s3_right_from_walker, s3_right_from_edge, s3_right_from_primary, s3_right_sent);
+        dff_setup!(
+            self,
+            clock,
+            s4_left_from_a,
+            s4_left_from_b,
+            s4_left_from_c,
+            s4_left_from_walker,
+            s4_left_from_edge,
+            s4_left_sent,
+            s4_right_from_a,
+            s4_right_from_b
+        );
+        dff_setup!(
+            self,
+            clock,
+            s4_right_from_c,
+            s4_right_from_walker,
+            s4_right_from_edge,
+            s4_right_from_primary,
+            s4_right_sent
+        );
+        dff_setup!(
+            self,
+            clock,
+            s3_left_from_a,
+            s3_left_from_b,
+            s3_left_from_c,
+            s3_left_from_walker,
+            s3_left_from_edge,
+            s3_left_sent,
+            s3_right_from_a,
+            s3_right_from_b
+        );
+        dff_setup!(
+            self,
+            clock,
+            s3_right_from_c,
+            s3_right_from_walker,
+            s3_right_from_edge,
+            s3_right_from_primary,
+            s3_right_sent
+        );
         dff_setup!(self, clock, s1_bus_a, s1_bus_b, s1_bus_c, s1_bus_ab, s1_bus_ac, s1_bus_bc, s1_bus_origin);
-        dff_setup!(self, clock, s0_load, s0_bus, s0_to_primary, s0_to_edge, s0_to_right, s0_rung, s0_primary_minus, s0_edge_moves);
-        dff_setup!(self, clock, s0_edge_minus, s0_edge_bc, s0_left_moves, s0_from_base, s0_base_takes, s0_right_side, s0_right_edge, s0_right_ac);
-        dff_setup!(self, clock, s0_right_minus, s0_climbs, s0_side_minus, s0_left_from, s0_right_from, s0_valid, s0_kind, s0_left);
+        dff_setup!(
+            self,
+            clock,
+            s0_load,
+            s0_bus,
+            s0_to_primary,
+            s0_to_edge,
+            s0_to_right,
+            s0_rung,
+            s0_primary_minus,
+            s0_edge_moves
+        );
+        dff_setup!(
+            self,
+            clock,
+            s0_edge_minus,
+            s0_edge_bc,
+            s0_left_moves,
+            s0_from_base,
+            s0_base_takes,
+            s0_right_side,
+            s0_right_edge,
+            s0_right_ac
+        );
+        dff_setup!(
+            self,
+            clock,
+            s0_right_minus,
+            s0_climbs,
+            s0_side_minus,
+            s0_left_from,
+            s0_right_from,
+            s0_valid,
+            s0_kind,
+            s0_left
+        );
         dff_setup!(self, clock, s0_right, s0_keep, s0_swap, s0_last);
         dff_setup!(self, clock, va, vb, vc, d_ab, d_ac, d_bc, from_ab, from_ac);
         dff_setup!(self, clock, from_bc, d_side, d_sweep, origin_b, hi_ab, hi_ac, hi_bc, s1_load);
@@ -641,25 +712,9 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
             s3_rung,
             s3_to_primary
         );
-        dff_setup!(
-            self,
-            clock,
-            s3_to_edge,
-            s3_to_right,
-            s3_from_base,
-            s3_base_takes,
-            s3_valid,
-            s3_kind
-        );
+        dff_setup!(self, clock, s3_to_edge, s3_to_right, s3_from_base, s3_base_takes, s3_valid, s3_kind);
         dff_setup!(self, clock, s3_left, s3_right, s3_keep, s3_swap, s3_last, primary_walker, base_walker, left_walker);
-        dff_setup!(
-            self,
-            clock,
-            right_walker,
-            edge_walker,
-            edge_before,
-            s4_base_takes
-        );
+        dff_setup!(self, clock, right_walker, edge_walker, edge_before, s4_base_takes);
         dff_setup!(self, clock, sent_left_vertex, sent_right_vertex);
         self.out_valid.next = self.s3_valid.q.val();
         self.out_kind.next = self.s3_kind.q.val();
@@ -838,12 +893,10 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s1_primary_minus.d.next =
             self.s0_rung.q.val() && !self.s0_to_primary.q.val() && self.s0_primary_minus.q.val();
         self.s1_primary_moves.d.next = self.s0_rung.q.val() && !self.s0_to_primary.q.val();
-        self.s1_edge_ac.d.next =
-            self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && !self.s0_edge_bc.q.val();
+        self.s1_edge_ac.d.next = self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && !self.s0_edge_bc.q.val();
         self.s1_edge_minus.d.next =
             self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && self.s0_edge_minus.q.val();
-        self.s1_edge_bc.d.next =
-            self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && self.s0_edge_bc.q.val();
+        self.s1_edge_bc.d.next = self.s0_edge_moves.q.val() && !self.s0_to_edge.q.val() && self.s0_edge_bc.q.val();
         self.s1_left_moves.d.next = self.s0_left_moves.q.val();
         self.s1_from_base.d.next = self.s0_from_base.q.val();
         self.s1_base_takes.d.next = self.s0_base_takes.q.val();
@@ -911,10 +964,8 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         }
         self.start.next = (self.on_a.val()
             & ((bit_cast_to::<Lanes<L, W>>(self.va.q.val()) << self.guard.val()) | self.half.val()))
-            | (self.on_b.val()
-                & ((bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val()) | self.half.val()))
-            | (self.on_c.val()
-                & ((bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val()) | self.half.val()))
+            | (self.on_b.val() & ((bit_cast_to::<Lanes<L, W>>(self.vb.q.val()) << self.guard.val()) | self.half.val()))
+            | (self.on_c.val() & ((bit_cast_to::<Lanes<L, W>>(self.vc.q.val()) << self.guard.val()) | self.half.val()))
             | (self.on_ab.val() & self.from_ab.q.val())
             | (self.on_ac.val() & self.from_ac.q.val())
             | (self.on_bc.val() & self.from_bc.q.val())
@@ -933,7 +984,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.s2_across.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.d_sweep.q.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.side_step.val()) << 1) | self.side_carry.val()))
-                >> 1
+                >> 1,
         );
         self.s2_to_primary.d.next = self.s1_to_primary.q.val();
         self.s2_to_edge.d.next = self.s1_to_edge.q.val();
@@ -1074,7 +1125,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.primary_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.primary_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_primary_step.q.val()) << 1) | self.primary_carry.val()))
-                >> 1
+                >> 1,
         );
         self.edge_carry.next = self.zero.val();
         if self.s3_edge_minus.q.val() {
@@ -1087,7 +1138,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.edge_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.edge_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_edge_step.q.val()) << 1) | self.edge_carry.val()))
-                >> 1
+                >> 1,
         );
         self.edge_before.d.next = bit_cast_to::<Lanes<L, V>>(self.edge_walker.q.val() >> self.guard.val());
         self.left_from.next = self.left_walker.q.val();
@@ -1108,7 +1159,7 @@ impl<const L: usize, const V: usize, const W: usize, const X: usize> Logic for W
         self.right_walker.d.next = bit_cast_to::<Lanes<L, W>>(
             (((bit_cast_to::<Lanes<L, X>>(self.right_from.val()) << 1) | self.one.val())
                 + ((bit_cast_to::<Lanes<L, X>>(self.s3_right_step.q.val()) << 1) | self.right_carry.val()))
-                >> 1
+                >> 1,
         );
         // The base walker takes the right one's first vertex, a cycle behind it.
         self.base_walker.enable.next = self.s4_base_takes.q.val();

@@ -215,7 +215,9 @@ impl Graph {
             false => ((spread * 5.0).round() as usize).min(n / 3).max(2),
         };
         let places: Vec<Option<f64>> = (0..groups)
-            .map(|g| mean(placed[g * n / groups..(g + 1) * n / groups].iter().filter_map(|pin| self.cells[pin.0].place)))
+            .map(|g| {
+                mean(placed[g * n / groups..(g + 1) * n / groups].iter().filter_map(|pin| self.cells[pin.0].place))
+            })
             .collect();
         for (g, group_place) in places.into_iter().enumerate() {
             let group = placed[g * n / groups..(g + 1) * n / groups].to_vec();
