@@ -2,10 +2,11 @@
 //! Queue in front of the step port: a stall of the reader never reaches the walkers, only the sweep, and that in time.
 //!
 //! `room` falls while seven beats or more wait, and the sweep stops. Up to nine more are under way by then: a
-//! micro-operation is eight cycles in sweep, walkers, commands and on its way to the memories, and `room` is one old. Sixteen places hold them all.
+//! micro-operation is eight cycles in sweep, walkers, commands and on its way to the memories, and `room` is one old. Sixteen
+//! places hold them all.
 //!
-//! | port  | format   |   Latency 2, interval 1
-//! | in_*  | -        | beats; vertices stand beside the other fields |
+//! | port  | format   |   Latency 3, interval 1
+//! | in_*  | -        | beats; vertices one cycle behind the other fields |
 //! | room  | Bit      | a register: the sweep may go on |
 //! | out_* | stream   | the step port   Error 0
 

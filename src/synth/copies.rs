@@ -179,8 +179,7 @@ impl Graph {
         });
         let count = |net: &u64| self.readers.get(net).map_or(0, Vec::len);
         work.sort_by_key(|(driver, net)| (usize::MAX - count(net), *driver));
-        let divided = work.into_iter().filter(|(driver, net)| self.divide_one(*driver, *net)).count();
-        divided
+        work.into_iter().filter(|(driver, net)| self.divide_one(*driver, *net)).count()
     }
 
     fn divide_one(&mut self, driver: usize, net: u64) -> bool {
