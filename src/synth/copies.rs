@@ -258,7 +258,10 @@ impl Graph {
             let output = ways.into_iter().find(|(_, way)| *way == "output").map(|(port, _)| port.clone());
             copy["connections"][output.ok_or_else(|| format!("cell {k} has no output"))?] = json!(cell.outputs);
             cells.insert(cell.name.clone(), copy);
-            nets.insert(cell.name.clone(), json!({ "hide_name": 1, "bits": cell.outputs, "attributes": {} }));
+            nets.insert(
+                format!("{}$net", cell.name),
+                json!({ "hide_name": 1, "bits": cell.outputs, "attributes": {} }),
+            );
         }
         for cell in &self.cells {
             for ((port, k), net) in &cell.inputs {
