@@ -61,7 +61,8 @@ macro_rules! watched {
 /// A sub-block behind a gate; use it as the block itself: the gate is transparent to kernels, probes and the back-end.
 #[derive(Clone, Debug)]
 pub struct Gated<B: Watched> {
-    block: B,
+    /// On the heap: a design of many blocks is larger than the stack of a thread.
+    block: Box<B>,
     /// The block must be evaluated again: a sub-block of it moved.
     unsettled: bool,
     /// An output moved in the last pass: the parent must be evaluated again.
@@ -73,7 +74,7 @@ pub struct Gated<B: Watched> {
 impl<B: Watched> Gated<B> {
     /// Puts `block` behind a gate.
     pub fn new(block: B) -> Self {
-        Self { block, unsettled: true, changed: true, quiet: false }
+        Self { block: Box::new(block), unsettled: true, changed: true, quiet: false }
     }
     fn evaluate(&mut self) {
         self.block.update_all();
