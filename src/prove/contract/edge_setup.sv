@@ -3,6 +3,9 @@
     reg [7:0] same = 0;
     reg [3:0] was = 0;
     wire [3:0] state = \block.state_q ;
+    // `begun` has no reset, and is right a cycle after it.
+    reg settled = 0;
+    always @(posedge clock) settled <= started;
     always @(posedge clock) begin
         was <= reset ? 0 : state;
         same <= reset || state == 0 || state != was ? 0 : same + 1;
@@ -10,7 +13,7 @@
     always @* if (started) begin
         answered_runs: assert (\block.running_q == \block.divider.working_q
             && !(\block.divider.working_q && \block.finished_q ) && (state != 0 || !\block.running_q )
-            && \block.begun_q == \block.divider.begun_q && (!\block.due_q || state != 0));
+            && (!settled || \block.begun_q == \block.divider.begun_q ) && (!\block.due_q || state != 0));
         answered_steps: assert (\block.divider.last_q == (\block.divider.working_q && \block.divider.count_q == 1)
             && (!\block.divider.working_q || (\block.divider.count_q >= 1 && \block.divider.count_q <= 8)));
         answered_order: assert (state == was || state == 0 || state > was);

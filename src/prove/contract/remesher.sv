@@ -6,7 +6,8 @@
     wire [3:0] between = \block.queue.write_place_q - \block.queue.read_place_q ;
     always @* if (started) begin
         counted_answered_queue: assert (under_way == waiting + \block.queue.held_q + \block.queue.write_valid_q
-            && \block.queue.any_q == (waiting != 0) && waiting + coming <= 16);
+            && waiting + coming <= 16);
+        counted_answered_room_any: assert (\block.queue.any_q == (waiting != 0));
         counted_answered_room_credit: assert (!\block.queue.has_room_q || waiting <= 7);
         answered_in_time: assert (silent <= 2);
         room_queue: assert (waiting <= 16 && between == waiting[3:0]
