@@ -14,6 +14,10 @@
         answered_runs: assert (\block.running_q == \block.divider.working_q
             && !(\block.divider.working_q && \block.finished_q ) && (state != 0 || !\block.running_q )
             && (!settled || \block.begun_q == \block.divider.begun_q ) && (!\block.due_q || state != 0));
+        // The edge of a state is ahead, or has been taken up.
+        answered_ahead: assert (state == 0 || \block.ahead_q ==
+            (\block.running_q || \block.finished_q ? state : state - 4'd1));
+        answered_due: assert (!(\block.due_q && (\block.running_q || \block.finished_q )));
         answered_steps: assert (\block.divider.last_q == (\block.divider.working_q && \block.divider.count_q == 1)
             && (!\block.divider.working_q || (\block.divider.count_q >= 1 && \block.divider.count_q <= 8)));
         answered_order: assert (state == was || state == 0 || state > was);
