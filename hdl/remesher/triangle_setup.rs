@@ -309,7 +309,11 @@ impl<const L: usize, const V: usize, const N: usize, const T: usize, const A: us
                 self.pa.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p0.val());
                 self.pb.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p1.val());
                 self.pc.d.next = bit_cast_to::<Lanes<3, T>>(self.in_p2.val());
-                self.state.d.next = SetupState::Measure;
+                // A source that takes its beat back begins again.
+                self.state.d.next = SetupState::Idle;
+                if self.in_valid.val() {
+                    self.state.d.next = SetupState::Measure;
+                }
                 self.round.d.next = 0.into();
             }
             SetupState::Measure => {
