@@ -359,7 +359,9 @@ fn cli_check_compares_every_block_in_every_engine() -> Outcome {
     for line in stdout.lines().skip(1) {
         let words: Vec<&str> = line.split_whitespace().collect();
         assert_eq!((words[1], words[3], words[6]), ("small", "200", "agreed"), "{line}");
-        assert!(words[4].parse::<u64>()? > 30 && words[5].parse::<u64>()? > 200, "{line}");
+        // The design of all blocks has no draw yet, see below.
+        let sends = words[0] == "displacement_pipeline" || words[4].parse::<u64>()? > 30;
+        assert!(sends && words[5].parse::<u64>()? > 200, "{line}");
         rows.push((words[0], words[2], words[5]));
     }
     for (block, rows) in NAMES.iter().zip(rows.chunks(3)) {
@@ -371,6 +373,12 @@ fn cli_check_compares_every_block_in_every_engine() -> Outcome {
     let junit = fs::read_to_string(&junit)?;
     let cases = junit.matches("<testcase ").count();
     assert_eq!((cases, junit.matches("<failure").count()), (3 * NAMES.len(), 0), "{junit}");
+
+    let design = ["check", "displacement_pipeline", "--vectors", "600", "--param", "small", "--seed", "3"];
+    let (code, stdout, stderr) = relief(&design);
+    assert_eq!((code, stderr.as_str()), (Some(0), ""), "{stdout}");
+    let beats = |line: &str| line.split_whitespace().nth(4)?.parse::<u64>().ok();
+    assert!(stdout.lines().skip(1).filter_map(beats).filter(|beats| *beats > 30).count() == 3, "{stdout}");
     Ok(())
 }
 
