@@ -6,7 +6,7 @@
 
 use relief_hdl::mip_build::ExtremaMemory;
 use relief_hdl::primitives::Divider;
-use relief_hdl::remesher::{EdgeSetup, InteriorSetup, Sweep, TriangleSetup};
+use relief_hdl::remesher::{EdgeSetup, InteriorSetup, LaneDivider, Sweep, TriangleSetup};
 use relief_hdl::verilog::{Emission, EmitError, emit};
 
 use super::Property;
@@ -127,7 +127,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 28] = [
+pub const CONTRACTS: [Contract; 29] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -342,7 +342,7 @@ pub const CONTRACTS: [Contract; 28] = [
     Contract {
         name: "divider",
         part: Some(Part {
-            of: "remesher and sat_average",
+            of: "sat_average",
             widths: "quotients of 4 bits, remainders of 6",
             emit: || emit(&Divider::<1, 4, 6>::default()),
         }),
@@ -354,6 +354,24 @@ pub const CONTRACTS: [Contract; 28] = [
         faults: &[
             fault(Property::Equal, "divider_1x4_by_6", "minus_y_d = -divisor", "minus_y_d = ~divisor"),
             fault(Property::Answered, "divider_1x4_by_6", "count_q == 8'd2", "count_q == 8'd1"),
+        ],
+        ..PART
+    },
+    Contract {
+        name: "lane_divider",
+        part: Some(Part {
+            of: "remesher",
+            widths: "quotients of 4 bits, remainders of 6",
+            emit: || emit(&LaneDivider::<1, 4, 6>::default()),
+        }),
+        text: include_str!("contract/lane_divider.sv"),
+        claims: &[
+            bounded(Property::Equal, 12, "all numerators and divisors in range"),
+            induction(Property::Answered, 3),
+        ],
+        faults: &[
+            fault(Property::Equal, "lane_divider_1x4_by_6", "near_minus_d = -divisor", "near_minus_d = ~divisor"),
+            fault(Property::Answered, "lane_divider_1x4_by_6", "count_q == 8'd2", "count_q == 8'd1"),
         ],
         ..PART
     },
