@@ -3,64 +3,16 @@
 // beat as it comes. Answers with the cycle and the output words of each, in words of 64 bits, lowest first; the last
 // answer has no beat: all ones, then the cycles. `@NAME@` is filled in for a design.
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <cstdint>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <vector>
-
-#include "Vdut.h"
-#include "verilated.h"
-
-// Verilator asks for it when a design has no context.
-double sc_time_stamp() { return 0; }
-
-namespace {
-
-constexpr size_t kIn = @IN@;    // words of the inputs of a cycle
-constexpr size_t kOut = @OUT@;  // words of the outputs of a cycle
 constexpr size_t kReset = @RESET@;        // word of `reset`
 constexpr size_t kInValid = @IN_VALID@;   // word of `in_valid`
 constexpr size_t kInReady = @IN_READY@;   // word of `in_ready`
 constexpr size_t kOutValid = @OUT_VALID@; // word of `out_valid`
 constexpr size_t kOutReady = @OUT_READY@; // word of `out_ready`
-constexpr size_t kChunk = 8192;           // words moved at once
-
-inline void set_inputs(Vdut& dut, const uint64_t* in) {
-@SET@}
-
-inline void get_outputs(Vdut& dut, uint64_t* out) {
-@GET@}
-
-bool write_all(int file, const uint64_t* words, size_t count) {
-  const char* from = reinterpret_cast<const char*>(words);
-  size_t left = count * sizeof(uint64_t);
-  while (left > 0) {
-    const ssize_t written = write(file, from, left);
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    from += written;
-    left -= static_cast<size_t>(written);
-  }
-  return true;
-}
-
-}  // namespace
 
 // stream PATIENCE DRAIN: cycles without a handshake after which a design hangs, and in which it is done. The answer to a
 // beat that is not taken in time ends the program with 5.
 int main(int argc, char** argv) {
-  // What the design prints must not mix with the answers.
-  const int answers = dup(1);
-  dup2(2, 1);
-#ifdef F_SETPIPE_SZ
-  (void)fcntl(0, F_SETPIPE_SZ, 1 << 20);
-  (void)fcntl(answers, F_SETPIPE_SZ, 1 << 20);
-#endif
+  const int answers = open_answers();
   VerilatedContext context;
   context.commandArgs(argc, argv);
   if (argc < 3) return 2;

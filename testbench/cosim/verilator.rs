@@ -27,6 +27,8 @@ use std::{
 };
 
 const HARNESS: &str = include_str!("harness.cpp");
+/// What stands before the main function of every driver.
+const COMMON: &str = include_str!("common.cpp");
 
 /// Flags of the compiler: those of Verilator's make file, of which the warnings concern Verilator's authors.
 const COMPILER_FLAGS: [&str; 8] = [
@@ -303,7 +305,8 @@ fn harness(design: &Design, main: &str) -> String {
     }
     let clock =
         |level: u8| design.clock.as_ref().map_or(String::new(), |name| format!("dut.{} = {level};", mangled(name)));
-    main.replace("@IN@", &design.input_words().to_string())
+    let text = format!("{COMMON}{main}");
+    text.replace("@IN@", &design.input_words().to_string())
         .replace("@OUT@", &design.output_words().to_string())
         .replace("@SET@", &set)
         .replace("@GET@", &get)
