@@ -15,8 +15,8 @@
 //! | idle      | Bit           | no triangle is here
 //! | culled, reason; cut; near, lane, grid | Bit, unsigned 3; Bits | what became of a triangle, for a cycle
 //!
-//! A triangle takes 11 cycles, and waits until every record before it is transformed. A triangle that is cut waits for
-//! the cutter and 131 cycles for each vertex of what is left, three of its pieces' vertices at a time.
+//! One base triangle is worked on at a time, which is shorter than what the remesher takes for one. It waits until every record
+//! before it is transformed; one that is cut waits for the cutter, and for the transform of each vertex of what is left.
 
 use super::narrow::Narrow;
 use crate::clip::Clip;
