@@ -14,7 +14,7 @@ pub fn matches_golden_everywhere(block: &dyn Binding, beats: u64) -> Vec<Counts>
     let sets = offered_sets(block);
     let runs: Vec<_> = sets.iter().flat_map(|set| patterns.map(|pattern| (*set, pattern))).collect();
     // The design of all blocks is offered at three.
-    assert!(runs.len() >= 12, "{} is offered at {} sets", block.name(), sets.len());
+    assert!(sets.len() >= 3, "{} is offered at {} sets", block.name(), sets.len());
     let run = |(at, (set, (idle, stall)))| {
         let seed = 1000 + at as u64;
         let pattern = Pattern { idle, stall, seed };
