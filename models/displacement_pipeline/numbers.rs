@@ -3,7 +3,7 @@
 //!
 //! | number   | value, from bit 0 on | format |
 //! |----------|----------------------|--------|
-//! | 0..=43   | those of [`vertex_transform::numbers`]; the focal length and z0 go to all that take them | |
+//! | 0..=43   | those of [`crate::vertex_transform::numbers`]; the focal length and z0 go to all that take them | |
 //! | 64, 65   | axis u, v: size (14 bits), repeat, `texel_bits` at 15 (4 bits) | texels |
 //! | 66       | filter level: scale (24 bits), shift (6 bits), levels at 30 (4 bits) | |
 //! | 67       | displacement of height 0 | signed 32 bits |

@@ -6,7 +6,7 @@
 //!
 //! Which readers will be near each other is not known before placement, but the lanes of a vertex are: a cell's place is the
 //! relative position of its bit in the vector of lanes it belongs to, or the mean of the cells that it serves. Readers are
-//! ordered by place and cut into groups of [`READERS`]. A copy is one more reader of what the register takes, so this
+//! ordered by place and cut into groups of `READERS`. A copy is one more reader of what the register takes, so this
 //! goes on until nothing changes: what goes through two registers becomes a tree.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
