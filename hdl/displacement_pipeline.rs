@@ -138,6 +138,7 @@ pub struct DisplacementPipeline<
     lane_4: Wire<S<48>>,
     lane_5: Wire<S<48>>,
     lane_6: Wire<S<48>>,
+    lane_7: Wire<S<48>>,
     culled: Wire<U<3>>,
     no_x: Constant<Lanes<3, 22>>,
     no_c: Constant<Lanes<3, 32>>,
@@ -220,6 +221,7 @@ impl<
             lane_4: Wire::default(),
             lane_5: Wire::default(),
             lane_6: Wire::default(),
+            lane_7: Wire::default(),
             culled: Wire::default(),
             no_x: Constant::new(Lanes::default()),
             no_c: Constant::new(Lanes::default()),
@@ -305,6 +307,7 @@ impl<
         self.lane_4.next = self.in_data.val().get_bit(4);
         self.lane_5.next = self.in_data.val().get_bit(5);
         self.lane_6.next = self.in_data.val().get_bit(6);
+        self.lane_7.next = self.in_data.val().get_bit(7);
 
         // Assembly
         self.assembly.in_kind.next = bit_cast_to::<U<2>>(self.in_kind.val());
@@ -367,10 +370,13 @@ impl<
         self.vertices.map_j.next = bit_cast_to::<U<M>>(self.lane_2.val());
         self.vertices.map_value.next = bit_cast_to::<U<16>>(self.lane_3.val());
         self.vertices.map_base.next = bit_cast_to::<U<B>>(self.lane_3.val());
+        self.vertices.map_minima_base.next = bit_cast_to::<U<B>>(self.lane_7.val());
+        self.vertices.map_minima.next = self.lane_4.val().any();
         self.vertices.map_pitch.next = bit_cast_to::<U<M>>(self.lane_4.val());
         self.vertices.map_repeat_u.next = self.lane_5.val().any();
         self.vertices.map_repeat_v.next = self.lane_6.val().any();
         self.vertices.passes.next = self.constants.passes.val();
+        self.vertices.minima.next = self.constants.minima.val();
         self.vertices.axis_u.next = self.constants.axis_u.val();
         self.vertices.axis_v.next = self.constants.axis_v.val();
         self.vertices.level.next = self.constants.level.val();

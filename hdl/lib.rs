@@ -9,6 +9,7 @@ pub mod cull;
 pub mod displace;
 pub mod displacement_pipeline;
 pub mod face_normal;
+pub mod facing;
 pub mod filter_level;
 pub mod light;
 pub mod mip_build;

@@ -12,9 +12,11 @@
 //! | in_level   | 4 bits      | levels are sized in order; a fetch beyond the last one reads the last one
 //! | in_u, in_v | UQ13.16     | texels of level 0 | fetch   Error 1/2 unit of UQ16.8
 //! | in_bilinear | Bit        | otherwise the nearest texel | fetch
+//! | in_minima  | Bit         | minima of the level, otherwise maxima | fetch, load
 //! | in_i, in_j, in_value | unsigned M, M, 16 | column, row and sample | load
 //! | in_width, in_height  | unsigned M | samples of the level, at least one | size
 //! | in_base, in_pitch    | unsigned A, M | first word in every bank; words a row takes, at least width / 2 | size
+//! | in_minima_base | unsigned A | first word of its minima; `in_base` where it has no others | size
 //! | in_repeat_u, in_repeat_v | Bit | the map repeats; the side must be even | size
 //! | out_value  | UQ16.8      | 0 ..= 65535.0 |
 //! | error      | Bit         | sticky: a size that cannot be used (its level and those above are gone), a load outside of
@@ -47,12 +49,14 @@ pub struct MipFetch<const M: usize, const A: usize> {
     pub in_u: Input<U<29>>,
     pub in_v: Input<U<29>>,
     pub in_bilinear: Input<Bit>,
+    pub in_minima: Input<Bit>,
     pub in_i: Input<U<M>>,
     pub in_j: Input<U<M>>,
     pub in_value: Input<U<16>>,
     pub in_width: Input<U<M>>,
     pub in_height: Input<U<M>>,
     pub in_base: Input<U<A>>,
+    pub in_minima_base: Input<U<A>>,
     pub in_pitch: Input<U<M>>,
     pub in_repeat_u: Input<Bit>,
     pub in_repeat_v: Input<Bit>,
@@ -75,10 +79,12 @@ pub struct MipFetch<const M: usize, const A: usize> {
     s1_u: DataRegister<U<29>>,
     s1_v: DataRegister<U<29>>,
     s1_nearest: DataRegister<Bit>,
+    s1_minima: DataRegister<Bit>,
     s1_value: DataRegister<U<16>>,
     s1_width: DataRegister<U<M>>,
     s1_height: DataRegister<U<M>>,
     s1_base: DataRegister<U<A>>,
+    s1_minima_base: DataRegister<U<A>>,
     s1_pitch: DataRegister<U<M>>,
     s1_repeat_u: DataRegister<Bit>,
     s1_repeat_v: DataRegister<Bit>,
@@ -93,12 +99,14 @@ pub struct MipFetch<const M: usize, const A: usize> {
     s2_u: DataRegister<U<29>>,
     s2_v: DataRegister<U<29>>,
     s2_nearest: DataRegister<Bit>,
+    s2_minima: DataRegister<Bit>,
     s2_value: DataRegister<U<16>>,
     s2_blank: DataRegister<Bit>,
     // s3_shift: coordinates at their level, and the level's record.
     s3_u: DataRegister<U<29>>,
     s3_v: DataRegister<U<29>>,
     s3_nearest: DataRegister<Bit>,
+    s3_minima: DataRegister<Bit>,
     s3_value: DataRegister<U<16>>,
     s3_blank: DataRegister<Bit>,
     // s4_compare to s6_sort: the axes. What the banks want travels along.
@@ -163,12 +171,14 @@ impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
             in_u: Input::default(),
             in_v: Input::default(),
             in_bilinear: Input::default(),
+            in_minima: Input::default(),
             in_i: Input::default(),
             in_j: Input::default(),
             in_value: Input::default(),
             in_width: Input::default(),
             in_height: Input::default(),
             in_base: Input::default(),
+            in_minima_base: Input::default(),
             in_pitch: Input::default(),
             in_repeat_u: Input::default(),
             in_repeat_v: Input::default(),
@@ -189,10 +199,12 @@ impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
             s1_u: DataRegister::default(),
             s1_v: DataRegister::default(),
             s1_nearest: DataRegister::default(),
+            s1_minima: DataRegister::default(),
             s1_value: DataRegister::default(),
             s1_width: DataRegister::default(),
             s1_height: DataRegister::default(),
             s1_base: DataRegister::default(),
+            s1_minima_base: DataRegister::default(),
             s1_pitch: DataRegister::default(),
             s1_repeat_u: DataRegister::default(),
             s1_repeat_v: DataRegister::default(),
@@ -205,11 +217,13 @@ impl<const M: usize, const A: usize> Default for MipFetch<M, A> {
             s2_u: DataRegister::default(),
             s2_v: DataRegister::default(),
             s2_nearest: DataRegister::default(),
+            s2_minima: DataRegister::default(),
             s2_value: DataRegister::default(),
             s2_blank: DataRegister::default(),
             s3_u: DataRegister::default(),
             s3_v: DataRegister::default(),
             s3_nearest: DataRegister::default(),
+            s3_minima: DataRegister::default(),
             s3_value: DataRegister::default(),
             s3_blank: DataRegister::default(),
             s4_base: DataRegister::default(),
@@ -298,6 +312,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             sent_value
         );
         dff_setup!(self, clock, sent_failed, spare_valid, spare_value, spare_failed);
+        dff_setup!(self, clock, s1_minima, s1_minima_base, s2_minima, s3_minima);
 
         // The whole pipeline moves, or stands.
         self.go.next = self.moves.q.val();
@@ -324,10 +339,12 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
                 self.s1_v.d.next = bit_cast_to::<U<29>>(self.in_j.val()) << 16;
             }
             self.s1_nearest.d.next = !self.in_bilinear.val();
+            self.s1_minima.d.next = self.in_minima.val();
             self.s1_value.d.next = self.in_value.val();
             self.s1_width.d.next = self.in_width.val();
             self.s1_height.d.next = self.in_height.val();
             self.s1_base.d.next = self.in_base.val();
+            self.s1_minima_base.d.next = self.in_minima_base.val();
             self.s1_pitch.d.next = self.in_pitch.val();
             self.s1_repeat_u.d.next = self.in_repeat_u.val();
             self.s1_repeat_v.d.next = self.in_repeat_v.val();
@@ -351,6 +368,7 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
         self.levels.in_width.next = self.s1_width.q.val();
         self.levels.in_height.next = self.s1_height.q.val();
         self.levels.in_base.next = self.s1_base.q.val();
+        self.levels.in_minima_base.next = self.s1_minima_base.q.val();
         self.levels.in_pitch.next = self.s1_pitch.q.val();
         self.levels.in_repeat_u.next = self.s1_repeat_u.q.val();
         self.levels.in_repeat_v.next = self.s1_repeat_v.q.val();
@@ -376,11 +394,13 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
             self.s2_u.d.next = self.s1_u.q.val();
             self.s2_v.d.next = self.s1_v.q.val();
             self.s2_nearest.d.next = self.s1_nearest.q.val();
+            self.s2_minima.d.next = self.s1_minima.q.val();
             self.s2_value.d.next = self.s1_value.q.val();
             // s3_shift
             self.s3_u.d.next = self.s2_u.q.val() >> self.s2_shift.q.val();
             self.s3_v.d.next = self.s2_v.q.val() >> self.s2_shift.q.val();
             self.s3_nearest.d.next = self.s2_nearest.q.val();
+            self.s3_minima.d.next = self.s2_minima.q.val();
             self.s3_value.d.next = self.s2_value.q.val();
             self.s3_blank.d.next = self.s2_blank.q.val();
         }
@@ -439,6 +459,9 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
                 self.failed.d.next = true;
             }
             self.s4_base.d.next = self.levels.base.val();
+            if self.s3_minima.q.val() {
+                self.s4_base.d.next = self.levels.minima_base.val();
+            }
             self.s5_base.d.next = self.s4_base.q.val();
             self.s6_base.d.next = self.s5_base.q.val();
             self.s4_pitch.d.next = self.levels.pitch.val();
@@ -487,10 +510,10 @@ impl<const M: usize, const A: usize> Logic for MipFetch<M, A> {
 
 ports! {
     [const M: usize, const A: usize] MipFetch<M, A> {
-        inputs: in_valid, in_kind, in_level, in_u, in_v, in_bilinear, in_i, in_j, in_value, in_width, in_height, in_base,
-            in_pitch, in_repeat_u, in_repeat_v, out_ready;
+        inputs: in_valid, in_kind, in_level, in_u, in_v, in_bilinear, in_minima, in_i, in_j, in_value, in_width, in_height, in_base,
+            in_minima_base, in_pitch, in_repeat_u, in_repeat_v, out_ready;
         outputs: in_ready, out_valid, out_value, error;
         blocks: levels, axis_u, axis_v, banks, bilinear;
-        state: count, levels, axis_u, axis_v, banks, bilinear, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_value, s3_blank, s4_base, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base, s6_pitch, s6_value, s6_blank, s7_weights, s8_weights, s9_weights, s10_weights, s11_weights, loading, sending, failing, failed, s12_weights, s13_weights, moves, sent_valid, sent_value, sent_failed, spare_valid, spare_value, spare_failed
+        state: count, levels, axis_u, axis_v, banks, bilinear, s1_sizes, s1_loads, s1_fetches, s1_level, s1_u, s1_v, s1_nearest, s1_minima, s1_minima_base, s1_value, s1_width, s1_height, s1_base, s1_pitch, s1_repeat_u, s1_repeat_v, s1_sound, s2_sends, s2_load, s2_fails, s2_level, s2_shift, s2_u, s2_v, s2_nearest, s2_minima, s2_value, s2_blank, s3_u, s3_v, s3_nearest, s3_minima, s3_value, s3_blank, s4_base, s4_pitch, s4_value, s4_blank, s5_base, s5_pitch, s5_value, s5_blank, s6_base, s6_pitch, s6_value, s6_blank, s7_weights, s8_weights, s9_weights, s10_weights, s11_weights, loading, sending, failing, failed, s12_weights, s13_weights, moves, sent_valid, sent_value, sent_failed, spare_valid, spare_value, spare_failed
     }
 }

@@ -22,10 +22,9 @@ pub use machine::{Command, Machine, Sent, counter};
 pub use measure::{Deviation, Measure};
 
 use crate::draw::{Draw, Request};
-use crate::mip_build::Pyramid;
 use crate::mip_fetch::{self, Filter};
 use crate::remesher::{self, BaseTriangle, Format};
-use crate::rules::{Pyramids, Ruled, Rules};
+use crate::rules::{Pyramids, Ruled};
 use crate::step::{Step, Vertex};
 use crate::strip_unit::{StripOutput, StripUnit};
 
@@ -41,12 +40,12 @@ pub fn golden<'a>(
     sink: &mut impl FnMut([Vertex; 3]),
 ) {
     let pyramids = pyramids.into();
-    if draw.rules != Rules::HARDWARE {
+    if draw.rules.refusal().is_some() {
         return Ruled::new(draw, format, base).triangles(pyramids, sink);
     }
-    let pyramid = pyramids.maxima;
+    let pyramids = draw.rules.reads(pyramids);
     let mut unit = StripUnit::new(format.column_depth);
-    strips(draw, format, base, &mut unit, &mut |request| fetch(pyramid, request), &mut |_, out| {
+    strips(draw, format, base, &mut unit, &mut |request| fetch(pyramids, request), &mut |_, out| {
         out.triangles().for_each(&mut *sink);
     });
     debug_assert!(!unit.error(), "the remesher never asks for what the strip unit has not");
@@ -77,11 +76,12 @@ fn strips(
 }
 
 /// A vertex of the remesher, displaced by its height as the hardware does it.
-pub(crate) fn displaced_vertex(draw: &Draw, pyramid: &Pyramid, vertex: &Vertex) -> Vertex {
-    draw.displace(vertex, fetch(pyramid, &draw.request(vertex)))
+pub(crate) fn displaced_vertex(draw: &Draw, pyramids: Pyramids<'_>, vertex: &Vertex) -> Vertex {
+    draw.displace(vertex, fetch(draw.rules.reads(pyramids), &draw.request(vertex)))
 }
 
 /// The height that a vertex asks for, UQ16.8.
-fn fetch(pyramid: &Pyramid, request: &Request) -> u32 {
+fn fetch(pyramids: Pyramids<'_>, request: &Request) -> u32 {
+    let pyramid = if request.minima { pyramids.minima() } else { pyramids.maxima };
     mip_fetch::fetch(pyramid, request.level as usize, request.u, request.v, Filter::Bilinear)
 }

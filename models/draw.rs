@@ -20,13 +20,14 @@ use crate::cull::{self, Corner, Reason, Verdict};
 use crate::digits::{rounded_up, short};
 use crate::displace::{self, displaced};
 use crate::face_normal::{self, Pixel};
+use crate::facing;
 use crate::filter_level;
 use crate::lanes::Lanes;
 use crate::light::{self, Light, Material};
 use crate::perspective_correct::{self, Axis};
 use crate::remesher::{BaseTriangle, Format};
 use crate::rsqrt::normalize;
-use crate::rules::Rules;
+use crate::rules::{ExtremumRule, Rules};
 use crate::step::Vertex;
 use crate::vertex_transform::{self, BaseVertex, OutOfRange, Projected, Source, Transformed, ViewVertex, lane};
 use glam::{DVec2, DVec3};
@@ -288,6 +289,8 @@ pub struct Request {
     pub u: u32,
     /// Texel row of level 0, UQ13.16.
     pub v: u32,
+    /// Whether the level is that of the minima.
+    pub minima: bool,
 }
 
 /// A draw: constants, vertex memory and triangles, all integers.
@@ -301,7 +304,7 @@ pub struct Draw {
     pub volume: cull::Constants,
     /// Constants of the filter level.
     pub level: filter_level::Constants,
-    /// How a vertex finds its height; those of the hardware unless changed. [`request`](Self::request) does not know others.
+    /// How a vertex finds its height. [`request`](Self::request) knows only those that the hardware has.
     pub rules: Rules,
     /// The map's axes u and v.
     pub axes: [Axis; 2],
@@ -500,7 +503,7 @@ impl Draw {
             transform,
             volume,
             level,
-            rules: Rules::HARDWARE,
+            rules: Rules::DEFAULT,
             axes,
             displacement,
             lanes,
@@ -543,7 +546,7 @@ impl Draw {
             transform,
             volume,
             level: filter_level::Constants { scale: 0, shift: 0, levels: 1 },
-            rules: Rules::HARDWARE,
+            rules: Rules::DEFAULT,
             axes: [axis; 2],
             displacement: displace::Constants { minimum: 0, range: 0, exponent: 0, focal: transform.focal },
             lanes: Lanes { bits: format.vertex_bits, ..Lanes::WHOLE },
@@ -623,6 +626,7 @@ impl Draw {
             level: filter_level::golden(&self.level, vertex[lane::DENSITY], inverse),
             u: perspective_correct::golden(vertex[lane::U], inverse, &self.axes[0]),
             v: perspective_correct::golden(vertex[lane::V], inverse, &self.axes[1]),
+            minima: self.rules.extremum == ExtremumRule::Vertex && facing::of_vertex(&vertex, self.displacement.focal),
         }
     }
 

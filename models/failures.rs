@@ -294,12 +294,12 @@ impl RuleRow {
     }
 }
 
-/// The rules that are compared, those of the hardware first, and sides of a voxel.
+/// The rules that are compared, the default first, and sides of a voxel.
 pub const RULES: [Rules; 6] = {
     use ExtremumRule::{Max, Min, Triangle, Vertex};
     use FootprintRule::{Density, Exact, Paper};
     let of = [(Density, Max), (Density, Min), (Density, Vertex), (Exact, Max), (Paper, Max), (Density, Triangle)];
-    let mut rules = [Rules::HARDWARE; 6];
+    let mut rules = [Rules::DEFAULT; 6];
     let mut k = 0;
     while k < 6 {
         rules[k] = Rules { footprint: of[k].0, extremum: of[k].1 };

@@ -16,6 +16,7 @@ pub mod displacement_pipeline;
 pub mod draw;
 pub mod exact_footprint;
 pub mod face_normal;
+pub mod facing;
 pub mod failures;
 pub mod filter_level;
 pub mod filters;

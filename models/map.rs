@@ -40,11 +40,12 @@ impl Limit {
     /// That of the width set `large`, the last that scenes run on.
     pub const LARGEST: Limit = Limit { side: 2_047, bank_words: 131_072 };
 
-    /// Whether the memory can hold a map of this size with its lowest `levels`, and read four texels of it at once.
+    /// Whether the memory can hold a map of this size with its lowest `levels`, once or with maxima and minima as `both`
+    /// says, and read four texels of it at once.
     ///
     /// # Errors
     /// What the map is or does instead, as the end of a sentence.
-    pub fn check(&self, size: [usize; 2], wrap: [Wrap; 2], levels: usize) -> Result<(), String> {
+    pub fn check(&self, size: [usize; 2], wrap: [Wrap; 2], levels: usize, both: bool) -> Result<(), String> {
         let Limit { side, bank_words: limit } = *self;
         if size.iter().any(|samples| *samples > side) {
             return Err(format!("has a side beyond the limit of {side}; a smaller map is expected"));
@@ -54,12 +55,13 @@ impl Limit {
             let what = format!("repeats in {axis} with a period of {period} samples, which is odd");
             return Err(format!("{what}; an even number, or better a power of two, is expected"));
         }
-        let words = bank_words(size, wrap, levels);
+        let words = bank_words(size, wrap, levels, both);
         if words <= limit {
             return Ok(());
         }
         let what = format!("takes {words} words in each of the four banks of the map memory");
-        Err(format!("{what}, with its levels, beyond the limit of {limit}; a smaller map is expected"))
+        let with = if both { "with maxima and minima of its levels" } else { "with its levels" };
+        Err(format!("{what}, {with}, beyond the limit of {limit}; a smaller map is expected"))
     }
 }
 
@@ -113,12 +115,13 @@ pub fn levels(size: [usize; 2], wrap: [Wrap; 2]) -> Vec<[usize; 2]> {
 }
 
 /// Words of the lowest `most` levels of a map's pyramid in each of four banks, which hold the even and the odd columns of
-/// the even and the odd rows.
-pub fn bank_words(size: [usize; 2], wrap: [Wrap; 2], most: usize) -> u64 {
-    let words = |level: &[usize; 2]| level.map(|side| side.div_ceil(2) as u64);
-    levels(size, wrap)
-        .iter()
-        .take(most)
-        .map(words)
-        .fold(0, |sum, [width, height]| sum.saturating_add(width.saturating_mul(height)))
+/// the even and the odd rows; `both` are maxima and minima, which have the map in common.
+pub fn bank_words(size: [usize; 2], wrap: [Wrap; 2], most: usize, both: bool) -> u64 {
+    let words = |level: &[usize; 2]| {
+        let [width, height] = level.map(|side| side.div_ceil(2) as u64);
+        width.saturating_mul(height)
+    };
+    let levels = levels(size, wrap);
+    let minima = levels.iter().take(most).skip(1).take_while(|_| both);
+    levels.iter().take(most).chain(minima).map(words).fold(0, u64::saturating_add)
 }

@@ -22,10 +22,12 @@
 //! on a node it is the texel.
 //!
 //! The memory has four banks, so that all four texels come in one cycle: texel (i, j) of level L stands in bank
-//! `(j & 1) * 2 + (i & 1)`, word `base[L] + (j >> 1) * pitch[L] + (i >> 1)`.
+//! `(j & 1) * 2 + (i & 1)`, word `base[L] + (j >> 1) * pitch[L] + (i >> 1)`. A level of minima may stand beside one of maxima, the
+//! same size in another place; each fetch says which it reads.
 
 use crate::fixed::shift_round_half_up;
 use crate::mip_build::{Level, MAX_LEVELS, Pyramid, Wrap};
+use crate::rules::Pyramids;
 
 /// Fraction bits of a coordinate.
 pub const FRACTION_BITS: u32 = 16;
@@ -61,6 +63,8 @@ pub struct Placement {
     pub height: usize,
     /// First word in every bank.
     pub base: usize,
+    /// First word of its minima in every bank; `base` where the level has no others.
+    pub minima_base: usize,
     /// Words from a row to the second next one, half a row.
     pub pitch: usize,
     /// The borders of the axes u and v.
@@ -71,6 +75,14 @@ impl Placement {
     /// Bank and word of the sample in column `i` of row `j`.
     pub fn place(&self, i: usize, j: usize) -> (usize, usize) {
         ((j & 1) * 2 + (i & 1), self.base + (j >> 1) * self.pitch + (i >> 1))
+    }
+    /// The same level with its minima in place of its maxima.
+    pub const fn of_minima(self) -> Self {
+        Self { base: self.minima_base, ..self }
+    }
+    /// Whether it has minima of its own.
+    pub const fn has_minima(&self) -> bool {
+        self.minima_base != self.base
     }
     /// Words that the level takes in every bank.
     pub fn words(&self) -> usize {
@@ -93,7 +105,8 @@ impl Pyramid {
         let mut base = 0;
         let place = |level: &Level| {
             let (width, height) = (level.width, level.height);
-            let placement = Placement { width, height, base, pitch: width.div_ceil(2), wrap: self.wrap };
+            let pitch = width.div_ceil(2);
+            let placement = Placement { width, height, base, minima_base: base, pitch, wrap: self.wrap };
             base += placement.words();
             placement
         };
@@ -102,6 +115,42 @@ impl Pyramid {
     /// Words that the pyramid takes in every bank.
     pub fn bank_words(&self) -> usize {
         self.layout().iter().map(Placement::words).sum()
+    }
+}
+
+impl<'a> Pyramids<'a> {
+    /// Where the levels stand: those of the maxima one behind the other, then those of the minima but the map, which is one
+    /// for both.
+    pub fn layout(&self) -> Vec<Placement> {
+        let mut layout = self.maxima.layout();
+        let mut base = self.maxima.bank_words();
+        // Both have the same sizes.
+        for placement in layout.iter_mut().skip(1).take_while(|_| self.minima.is_some()) {
+            placement.minima_base = base;
+            base += placement.words();
+        }
+        layout
+    }
+    /// Words that they take in every bank.
+    pub fn bank_words(&self) -> usize {
+        let ends = self.layout().into_iter().flat_map(|of| [of, of.of_minima()]).map(|of| of.base + of.words());
+        ends.max().unwrap_or(0)
+    }
+    /// The commands that put them into a memory from word `offset` of the banks on: sizes, then samples.
+    pub fn commands(self, offset: usize) -> impl Iterator<Item = Command> + 'a {
+        let sizes = self.layout().into_iter().enumerate().map(move |(level, placement)| {
+            let Placement { base, minima_base, .. } = placement;
+            let placement = Placement { base: base + offset, minima_base: minima_base + offset, ..placement };
+            Command::Size { level, placement }
+        });
+        let of = |pyramid: Option<&'a Pyramid>, minima: bool| {
+            let levels = pyramid.map_or(&[][..], |pyramid| &pyramid.levels).iter().enumerate();
+            levels.skip(usize::from(minima)).flat_map(move |(level, samples)| {
+                let all = (0..samples.height).flat_map(|j| (0..samples.width).map(move |i| (i, j)));
+                all.map(move |(i, j)| Command::Load { level, minima, i, j, value: samples.at(i, j) })
+            })
+        };
+        sizes.chain(of(Some(self.maxima), false)).chain(of(self.minima, true))
     }
 }
 
@@ -190,6 +239,8 @@ pub enum Command {
     Load {
         /// The level.
         level: usize,
+        /// Whether it is one of the minima.
+        minima: bool,
         /// Column.
         i: usize,
         /// Row.
@@ -207,7 +258,14 @@ pub enum Command {
         v: u32,
         /// The filter.
         filter: Filter,
+        /// Whether minima are read.
+        minima: bool,
     },
+}
+
+/// Where the maxima or the minima of a level stand, and which of its two planes that is.
+const fn of(placement: Placement, minima: bool) -> (Placement, usize) {
+    if minima { (placement.of_minima(), placement.has_minima() as usize) } else { (placement, 0) }
 }
 
 /// Golden model of the memory: levels, the samples loaded, and the sticky error.
@@ -215,7 +273,8 @@ pub enum Command {
 /// A sample that was not loaded since the size of its level reads as zero here and as anything in hardware.
 #[derive(Clone, Debug)]
 pub struct MipFetch {
-    levels: Vec<(Placement, Level)>,
+    /// Maxima and minima; the latter where the level has its own.
+    levels: Vec<(Placement, [Level; 2])>,
     bank_words: usize,
     error: bool,
 }
@@ -243,35 +302,40 @@ impl MipFetch {
                 self.levels.truncate(level);
                 if placement.is_sound() {
                     let Placement { width, height, .. } = placement;
-                    self.levels.push((placement, Level { width, height, samples: vec![0; width * height] }));
+                    let empty = || Level { width, height, samples: vec![0; width * height] };
+                    self.levels.push((placement, [empty(), empty()]));
                 } else {
                     self.error = true;
                 }
                 None
             }
-            Command::Load { level, i, j, value } => {
+            Command::Load { level, minima, i, j, value } => {
                 let bank_words = self.bank_words;
                 match self.levels.get_mut(level) {
-                    Some((placement, samples))
-                        if i < samples.width && j < samples.height && placement.place(i, j).1 < bank_words =>
+                    Some((placement, planes))
+                        if i < placement.width
+                            && j < placement.height
+                            && of(*placement, minima).0.place(i, j).1 < bank_words =>
                     {
-                        samples.samples[j * samples.width + i] = value;
+                        planes[of(*placement, minima).1].samples[j * placement.width + i] = value;
                     }
                     _ => self.error = true,
                 }
                 None
             }
-            Command::Fetch { level, u, v, filter } => Some(self.fetch(level, u, v, filter)),
+            Command::Fetch { level, u, v, filter, minima } => Some(self.fetch(level, u, v, filter, minima)),
         }
     }
 
-    fn fetch(&mut self, level: usize, u: u32, v: u32, filter: Filter) -> u32 {
+    fn fetch(&mut self, level: usize, u: u32, v: u32, filter: Filter, minima: bool) -> u32 {
         let Some(last) = self.levels.len().checked_sub(1) else {
             self.error = true;
             return 0;
         };
         let level = level.min(last);
-        let (placement, samples) = &self.levels[level];
+        let (placement, planes) = &self.levels[level];
+        let (placement, plane) = of(*placement, minima);
+        let samples = &planes[plane];
         let x = taps(u, level, samples.width, placement.wrap[0], filter);
         let y = taps(v, level, samples.height, placement.wrap[1], filter);
         // A word beyond the memory reads as zero.

@@ -17,6 +17,7 @@ use crate::displacement_pipeline::{Deviation, Measure};
 use crate::draw::{Assembled, Draw, DrawError};
 use crate::mesh::Progress;
 use crate::mip_build::Pyramid;
+use crate::mip_fetch::Placement;
 use crate::remesher::{BaseTriangle, Format};
 use crate::scene::{Object, Scene};
 use crate::step::Vertex;
@@ -152,7 +153,8 @@ pub struct Planner<'a> {
 
 struct PlannedObject<'a> {
     object: &'a Object,
-    pyramid: Pyramid,
+    /// Maxima and minima.
+    pyramids: [Pyramid; 2],
     /// Data of the base triangles with all lanes of 32 bits, or nothing for those that are gone.
     whole: Vec<Vec<[Vertex; 3]>>,
 }
@@ -176,8 +178,8 @@ impl<'a> Planner<'a> {
             }
             let pieces = |assembled: &Assembled| assembled.pieces().iter().map(|piece| piece.data).collect();
             // The reader of scenes has seen to it that a map has its levels.
-            let pyramid = scene.pyramid(object).unwrap_or_else(|error| unreachable!("{error}"));
-            Ok(PlannedObject { object, pyramid, whole: assembled.iter().map(pieces).collect() })
+            let pyramids = scene.pyramids(object).unwrap_or_else(|error| unreachable!("{error}"));
+            Ok(PlannedObject { object, pyramids, whole: assembled.iter().map(pieces).collect() })
         };
         let objects = scene.objects.iter().enumerate().map(prepare).collect::<Result<_, _>>()?;
         Ok(Self { scene, objects, progress, tried: AtomicU64::new(0) })
@@ -189,12 +191,13 @@ impl<'a> Planner<'a> {
     /// A draw that takes more components, or other formats.
     pub fn try_widths(&self, widths: &Widths) -> Result<Trial, PlanError> {
         let mut all = Trial { deviation: Deviation::default(), beyond_grid: 0, seams: true };
-        for (at, PlannedObject { object, pyramid, whole }) in self.objects.iter().enumerate() {
+        for (at, PlannedObject { object, pyramids, whole }) in self.objects.iter().enumerate() {
             let draw = self.scene.draw(object, &self.scene.view(), &widths.format);
             let mut draw = draw.map_err(|error| PlanError::Draw(at, error))?;
             draw.level.levels = draw.level.levels.min(widths.levels.min(64) as u32);
             let (format, viewport) = (&widths.format, self.scene.camera.viewport);
-            let measure = Measure { draw: &draw, format, pyramid, viewport };
+            let pyramids = draw.rules.reads(pyramids.into());
+            let measure = Measure { draw: &draw, format, pyramids, viewport };
             let one = |index: usize| {
                 let assembled = draw.assemble(index);
                 let measured = assembled
@@ -223,7 +226,7 @@ impl<'a> Planner<'a> {
     pub fn plan(&self, bound: f64) -> Result<Plan, PlanError> {
         // About as many trials as this takes.
         self.progress.phase("trying widths", 40);
-        let levels = self.objects.iter().map(|object| object.pyramid.levels.len()).max().unwrap_or(1);
+        let levels = self.objects.iter().map(|object| object.pyramids[0].levels.len()).max().unwrap_or(1);
         let widest = Widths { format: WIDEST, levels };
         let at_widest = self.try_widths(&widest)?;
         if at_widest.deviation.vertices == 0 {
@@ -359,8 +362,11 @@ impl<'a> Planner<'a> {
 
     /// Words in each bank for the lowest levels of the largest map.
     fn bank_words(&self, levels: usize) -> usize {
-        let words =
-            |object: &PlannedObject<'_>| object.pyramid.layout().iter().take(levels).map(|level| level.words()).sum();
+        let words = |object: &PlannedObject<'_>| {
+            let pyramids = self.scene.remesh.rules.reads((&object.pyramids).into());
+            let words = |level: &Placement| level.words() << usize::from(level.has_minima());
+            pyramids.layout().iter().take(levels).map(words).sum()
+        };
         self.objects.iter().map(words).max().unwrap_or(0)
     }
 }

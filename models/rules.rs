@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rules by which a vertex finds its height, those of the paper among them; golden only but for the first of each.
+//! The rules by which a vertex finds its height, those of the paper among them.
 //!
 //! | `footprint` | filter level of a vertex from |
 //! |-------------|-------------------------------|
@@ -9,9 +9,9 @@
 //!
 //! | `extremum` | levels that a vertex reads |
 //! |------------|----------------------------|
-//! | `max`      | maxima; what the hardware does |
+//! | `max`      | maxima |
 //! | `min`      | minima |
-//! | `vertex`   | maxima where its normal faces the eye, S < 0, otherwise minima: S = nx c X s + ny c Y s + nz c, s the pixel at distance 1 |
+//! | `vertex`   | maxima where its normal faces the eye, otherwise minima ([`facing`]) |
 //! | `triangle` | minima in base triangles seen from the back, as in the paper |
 //!
 //! A mesh stays closed if the height is a function of what all base triangles round a vertex share: the vertex, or, inside
@@ -20,7 +20,7 @@
 
 use crate::draw::{Draw, Request};
 use crate::exact_footprint;
-use crate::face_normal::Pixel;
+use crate::facing;
 use crate::filter_level;
 use crate::mip_build::Pyramid;
 use crate::mip_fetch::{self, Filter};
@@ -99,8 +99,8 @@ impl fmt::Display for Rules {
 }
 
 impl Rules {
-    /// What the hardware does.
-    pub const HARDWARE: Rules = Rules { footprint: FootprintRule::Density, extremum: ExtremumRule::Max };
+    /// What a draw does unless it is told otherwise.
+    pub const DEFAULT: Rules = Rules { footprint: FootprintRule::Density, extremum: ExtremumRule::Max };
 
     /// Whether the height is a function of what all base triangles round a vertex share, so that no mesh cracks; with
     /// difference vertices, but for a seam whose two sides round to either side of a threshold.
@@ -108,11 +108,27 @@ impl Rules {
         !matches!(self.footprint, FootprintRule::Paper) && !matches!(self.extremum, ExtremumRule::Triangle)
     }
 
-    /// Why there is no hardware for them, as the end of a sentence about `[remesh]`; `None` for those of the hardware.
+    /// Whether vertices of a draw read different pyramids.
+    pub const fn reads_both(self) -> bool {
+        matches!(self.extremum, ExtremumRule::Vertex | ExtremumRule::Triangle)
+    }
+
+    /// What is read of the levels of a map: one pyramid stands alone where no vertex reads the other.
+    pub fn reads(self, pyramids: Pyramids<'_>) -> Pyramids<'_> {
+        match self.extremum {
+            ExtremumRule::Max => pyramids.maxima.into(),
+            ExtremumRule::Min => pyramids.minima().into(),
+            ExtremumRule::Vertex | ExtremumRule::Triangle => pyramids,
+        }
+    }
+
+    /// Why there is no hardware for them, as the end of a sentence about `[remesh]`; `None` for those that it has.
     pub fn refusal(self) -> Option<String> {
         let (field, value, expected) = match self {
-            Self { footprint: FootprintRule::Density, extremum: ExtremumRule::Max } => return None,
-            Self { footprint: FootprintRule::Density, extremum } => ("extremum", extremum.name(), "max"),
+            Self { footprint: FootprintRule::Density, extremum: ExtremumRule::Triangle } => {
+                ("extremum", "triangle", "vertex")
+            }
+            Self { footprint: FootprintRule::Density, .. } => return None,
             Self { footprint, .. } => ("footprint", footprint.name(), "density"),
         };
         Some(format!(
@@ -122,26 +138,33 @@ impl Rules {
     }
 }
 
-/// The levels of a map, its greatest and its least.
+/// The levels of a map that a draw reads: one pyramid, or maxima and minima.
 #[derive(Clone, Copy, Debug)]
 pub struct Pyramids<'a> {
-    /// The greatest of each node's neighbours.
+    /// What a vertex reads that does not ask for minima.
     pub maxima: &'a Pyramid,
-    /// The least of them.
-    pub minima: &'a Pyramid,
+    /// The least of each node's neighbours; none for draws whose rule reads but one pyramid.
+    pub minima: Option<&'a Pyramid>,
 }
 
-/// The same levels for both: for draws whose rule reads but one.
+impl<'a> Pyramids<'a> {
+    /// The levels of minima, or those that stand for both.
+    pub fn minima(&self) -> &'a Pyramid {
+        self.minima.unwrap_or(self.maxima)
+    }
+}
+
+/// The same levels for all vertices.
 impl<'a> From<&'a Pyramid> for Pyramids<'a> {
     fn from(pyramid: &'a Pyramid) -> Self {
-        Self { maxima: pyramid, minima: pyramid }
+        Self { maxima: pyramid, minima: None }
     }
 }
 
 /// Greatest and least levels.
 impl<'a> From<&'a [Pyramid; 2]> for Pyramids<'a> {
     fn from([maxima, minima]: &'a [Pyramid; 2]) -> Self {
-        Self { maxima, minima }
+        Self { maxima, minima: Some(minima) }
     }
 }
 
@@ -217,15 +240,15 @@ impl<'a> Ruled<'a> {
         match self.draw.rules.extremum {
             ExtremumRule::Max => false,
             ExtremumRule::Min => true,
-            ExtremumRule::Vertex => faces_away(&self.draw.pixel, &self.draw.lanes.widen(vertex)),
+            ExtremumRule::Vertex => facing::of_vertex(&self.draw.lanes.widen(vertex), self.draw.displacement.focal),
             ExtremumRule::Triangle => self.is_back,
         }
     }
 
     /// The vertex at `place`, displaced by its height.
     pub fn displaced(&self, pyramids: Pyramids<'_>, vertex: &Vertex, place: Place) -> Vertex {
-        let Request { level, u, v } = self.request(vertex, place);
-        let pyramid = if self.reads_minima(vertex) { pyramids.minima } else { pyramids.maxima };
+        let Request { level, u, v, .. } = self.request(vertex, place);
+        let pyramid = if self.reads_minima(vertex) { pyramids.minima() } else { pyramids.maxima };
         self.draw.displace(vertex, mip_fetch::fetch(pyramid, level as usize, u, v, Filter::Bilinear))
     }
 
@@ -244,14 +267,6 @@ impl<'a> Ruled<'a> {
             }
         });
     }
-}
-
-/// Whether the normal of a vertex, nine lanes of 32 bits, does not face the eye: the sign of S, exact.
-pub fn faces_away(pixel: &Pixel, vertex: &Vertex) -> bool {
-    let product = |k: usize| i128::from(vertex[lane::NORMAL + k]) * i128::from(vertex[k]);
-    // X and Y in 2^-18 pixels. 31 + 31 + 1 + 24 bits, and 31 + 18 + 48.
-    let across = (product(lane::X) + product(lane::Y)) * i128::from(pixel.scale);
-    across + (i128::from(vertex[lane::NORMAL + 2]) << (18 + pixel.shift)) >= 0
 }
 
 /// Whether a base triangle is seen from the back: counterclockwise from the front, and y goes down.

@@ -119,7 +119,7 @@ fn horizon(scene: &Scene, view: &CameraView, filtered: bool, format: &Format) ->
     for (at, object) in scene.objects.iter().enumerate() {
         let mut draw = scene.draw(object, view, format).map_err(|error| WaggingError::Draw(at, error))?;
         if !filtered {
-            (draw.level.levels, draw.rules) = (1, Rules::HARDWARE);
+            (draw.level.levels, draw.rules) = (1, Rules::DEFAULT);
         }
         let pyramids = scene.pyramids(object).unwrap_or_else(|error| unreachable!("{error}"));
         let assembled: Vec<Assembled> = (0..draw.triangles.len()).map(|index| draw.assemble(index)).collect();

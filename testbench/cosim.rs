@@ -24,6 +24,7 @@
 
 pub mod cycles;
 pub mod design;
+pub mod gates;
 pub mod icarus;
 pub mod lint;
 pub mod program;
@@ -34,6 +35,7 @@ pub mod verilator;
 
 pub use cycles::{Cycles, Difference, Response, first_difference};
 pub use design::{Design, Direction, Port, Slot};
+pub use gates::{Link, Stalls};
 pub use icarus::{Icarus, IcarusModel};
 pub use lint::{LintMessage, Severity, Waiver, iverilog_accepts, verilator_lint};
 pub use stream::{Stream, Streamed};

@@ -57,13 +57,13 @@ impl Fields {
                 fields(1, 0, place as i64, &data, (false, true, LANES))
             }
             Command::Size { level, placement } => {
-                let Placement { width, height, base, pitch, wrap } = placement;
+                let Placement { width, height, base, minima_base, pitch, wrap } = placement;
                 let [u, v] = wrap.map(|wrap| usize::from(wrap == Wrap::Repeat));
-                let data = [level, width, height, base, pitch, u, v].map(|number| number as i64);
+                let data = [level, width, height, base, pitch, u, v, minima_base].map(|number| number as i64);
                 fields(2, 0, 0, &data, (false, false, data.len()))
             }
-            Command::Load { level, i, j, value } => {
-                let data = [level as i64, i as i64, j as i64, value.into()];
+            Command::Load { level, minima, i, j, value } => {
+                let data = [level as i64, i as i64, j as i64, value.into(), minima.into()];
                 fields(3, 0, 0, &data, (false, false, data.len()))
             }
             Command::Triangle { places } => {
@@ -105,10 +105,14 @@ pub fn command_of(beat: &[u64]) -> Option<Command> {
         }
         2 => {
             let wrap = [5, 6].map(|k| if data[k] & 1 == 1 { Wrap::Repeat } else { Wrap::Clamp });
-            let placement = Placement { width: number(1), height: number(2), base: number(3), pitch: number(4), wrap };
+            let (width, height, base, pitch, minima_base) = (number(1), number(2), number(3), number(4), number(7));
+            let placement = Placement { width, height, base, minima_base, pitch, wrap };
             Command::Size { level: number(0), placement }
         }
-        3 => Command::Load { level: number(0), i: number(1), j: number(2), value: data[3] as u16 },
+        3 => {
+            let minima = data[4] != 0;
+            Command::Load { level: number(0), minima, i: number(1), j: number(2), value: data[3] as u16 }
+        }
         4 => Command::Triangle { places: [0, 1, 2].map(|k| place(data[k])) },
         5 => Command::Report { counter: beat[1] },
         _ => return None,
@@ -218,7 +222,7 @@ fn fit_constant(number: i64, value: i64) -> Result<(), String> {
         numbers::LIGHT => return whole(&(0..=(1 << 54) - 1)),
         79 => &[("red", 0, 20, 0..=1 << 18), ("green", 20, 20, 0..=1 << 18), ("blue", 40, 20, 0..=1 << 18)],
         numbers::VIEWPORT => &[
-            ("switches", 0, 8, 0..=7),
+            ("switches", 0, 8, 0..=15),
             ("half of the width", 8, 24, 0..=0xff_ffff),
             ("half of the height", 32, 24, 0..=0xff_ffff),
         ],
@@ -274,15 +278,15 @@ impl Binding for DisplacementPipelineBinding {
     }
     fn stimulus_format(&self) -> &'static str {
         "0, number and value of a constant; 1, place and nine lanes of a record; 2, level, width, height, base, pitch, \
-         repeat_u, repeat_v; 3, level, i, j, value; 4, three places; or 5 and the number of a counter"
+         repeat_u, repeat_v, minima_base; 3, level, i, j, value, minima; 4, three places; or 5 and the number of a counter"
     }
     fn parse(&self, set: &WidthSet, numbers: &[i64]) -> Result<Beat, String> {
         let kind = *numbers.first().ok_or("the line is empty")?;
         let wanted = match kind {
             0 => 3,
             1 => 2 + LANES,
-            2 => 8,
-            3 => 5,
+            2 => 9,
+            3 => 6,
             4 => 4,
             5 => 2,
             _ => return Err(format!("number 1 (kind) is {kind}, not in 0..=5")),
@@ -296,8 +300,8 @@ impl Binding for DisplacementPipelineBinding {
         let ranges: &[&RangeInclusive<i64>] = match kind {
             0 => &[],
             1 => &[&any, p, n, n, n, n, n, n, u, u, u],
-            2 => &[&any, l, &side, &side, &word, &side, f, f],
-            3 => &[&any, l, &side, &side, &sample],
+            2 => &[&any, l, &side, &side, &word, &side, f, f, &word],
+            3 => &[&any, l, &side, &side, &sample, f],
             4 => &[&any, p, p, p],
             _ => &[&any, &counter],
         };
@@ -331,7 +335,8 @@ mod tests {
 
     #[test]
     fn commands_come_back_from_their_beats() {
-        let placement = Placement { width: 5, height: 4, base: 77, pitch: 3, wrap: [Wrap::Clamp, Wrap::Repeat] };
+        let wrap = [Wrap::Clamp, Wrap::Repeat];
+        let placement = Placement { width: 5, height: 4, base: 77, minima_base: 1077, pitch: 3, wrap };
         let vertex = BaseVertex {
             position: [i32::MIN, i32::MAX, -1],
             normal: [1 << 30, -(1 << 30), 0],
@@ -340,10 +345,10 @@ mod tests {
         };
         let commands = [
             Command::Constant { number: 32, value: -(1 << 61) },
-            Command::Constant { number: 80, value: 0xff_ffff << 32 | 7 },
+            Command::Constant { number: 80, value: 0xff_ffff << 32 | 15 },
             Command::Record { place: 511, vertex },
             Command::Size { level: 14, placement },
-            Command::Load { level: 3, i: 2, j: 1, value: u16::MAX },
+            Command::Load { level: 3, minima: true, i: 2, j: 1, value: u16::MAX },
             Command::Triangle { places: [511, 0, 1] },
             Command::Report { counter: 127 },
         ];

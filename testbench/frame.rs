@@ -14,7 +14,7 @@ mod mesh;
 mod prepare;
 
 pub use design::{
-    CulledReport, DesignError, DesignReport, DrawReport, DroppedReport, NoPlaceReport, TimesReport, commands_of,
+    CulledReport, DesignError, DesignReport, DrawReport, DroppedReport, LINKS, NoPlaceReport, TimesReport, commands_of,
     expect_drawable, render_by_design,
 };
 pub use prepare::{MOST_TRIANGLES, Prepared, prepare, width_set};
@@ -74,6 +74,8 @@ pub struct Report {
     pub engine: &'static str,
     /// Its width set: the smallest whose memory holds every map of the scene.
     pub width_set: &'static str,
+    /// Cycles of a hundred in which each stream of a draw was held up.
+    pub stalls: u8,
     /// Seconds from the reading of the scene to this report.
     pub seconds: f64,
     /// What was printed as warnings.
@@ -130,8 +132,8 @@ pub fn cycles(prepared: &Prepared<'_>, pipeline: &mut Pipeline) -> Result<u64, F
             let source = &prepared.scene.source;
             FrameError::Pipeline(source.error(Entry::Object(at), cause.to_string()), Box::new(cause))
         };
-        let pyramid = pipeline.build(size, &object.map.samples).map_err(fail)?;
-        pipeline.load(&pyramid).map_err(fail)?;
+        let pyramids = pipeline.build(size, &object.map.samples).map_err(fail)?;
+        pipeline.load(draw.rules.reads((&pyramids).into())).map_err(fail)?;
         let assembled = pipeline.assemble(draw).map_err(fail)?;
         let bases: Vec<_> = assembled.iter().flat_map(|assembled| assembled.pieces().to_vec()).collect();
         let lights = lights_of(prepared.scene, draw);
@@ -172,8 +174,8 @@ pub fn render(
         let fail = |cause: PipelineError| {
             FrameError::Pipeline(scene.source.error(Entry::Object(at), cause.to_string()), Box::new(cause))
         };
-        let pyramid = pipeline.build(size, &object.map.samples).map_err(fail)?;
-        pipeline.load(&pyramid).map_err(fail)?;
+        let pyramids = pipeline.build(size, &object.map.samples).map_err(fail)?;
+        pipeline.load(draw.rules.reads((&pyramids).into())).map_err(fail)?;
         let lights = lights_of(scene, draw);
         // A batch keeps the remesher fed; its base triangles are told apart by their number.
         let (mut bases, mut owners) = (Vec::new(), Vec::new());

@@ -29,6 +29,7 @@ pub mod device;
 pub mod displace;
 pub mod displacement_pipeline;
 pub mod face_normal;
+pub mod facing;
 pub mod filter_level;
 pub mod frame;
 pub mod light;

@@ -7,8 +7,9 @@ use crate::mip_build::{random_sample, random_side, random_wrap, wrap_of};
 use crate::stepped::Stepped;
 use relief_hdl::widths::WidthSet;
 use relief_hdl::with_width_set;
-use relief_models::mip_build::{Centring, Extremum, Pyramid, Wrap, golden, max_levels};
+use relief_models::mip_build::{Centring, Extremum, Wrap, golden, max_levels};
 use relief_models::mip_fetch::{COORDINATE_BITS, Command, Filter, MipFetch, Placement};
+use relief_models::rules::Pyramids;
 use std::collections::VecDeque;
 
 /// The fetch from pyramids.
@@ -17,26 +18,27 @@ pub struct MipFetchBinding;
 
 /// The beat of a command, and the fields that it uses.
 fn fields(command: &Command) -> (Beat, &'static [usize]) {
-    let mut beat = vec![0; 14];
+    let mut beat = vec![0; 16];
     match *command {
         Command::Size { level, placement } => {
-            let Placement { width, height, base, pitch, wrap } = placement;
+            let Placement { width, height, base, minima_base, pitch, wrap } = placement;
             beat[1] = level as u64;
-            for (field, number) in beat[8..12].iter_mut().zip([width, height, base, pitch]) {
+            for (field, number) in beat[9..14].iter_mut().zip([width, height, base, minima_base, pitch]) {
                 *field = number as u64;
             }
-            beat[12] = u64::from(wrap[0] == Wrap::Repeat);
-            beat[13] = u64::from(wrap[1] == Wrap::Repeat);
-            (beat, &[0, 1, 8, 9, 10, 11, 12, 13])
+            beat[14] = u64::from(wrap[0] == Wrap::Repeat);
+            beat[15] = u64::from(wrap[1] == Wrap::Repeat);
+            (beat, &[0, 1, 9, 10, 11, 12, 13, 14, 15])
         }
-        Command::Load { level, i, j, value } => {
-            (beat[0], beat[1], beat[5], beat[6], beat[7]) = (1, level as u64, i as u64, j as u64, u64::from(value));
-            (beat, &[0, 1, 5, 6, 7])
+        Command::Load { level, minima, i, j, value } => {
+            (beat[0], beat[1], beat[5], beat[6]) = (1, level as u64, minima.into(), i as u64);
+            (beat[7], beat[8]) = (j as u64, value.into());
+            (beat, &[0, 1, 5, 6, 7, 8])
         }
-        Command::Fetch { level, u, v, filter } => {
+        Command::Fetch { level, u, v, filter, minima } => {
             (beat[0], beat[1], beat[2], beat[3]) = (2, level as u64, u64::from(u), u64::from(v));
-            beat[4] = u64::from(filter == Filter::Bilinear);
-            (beat, &[0, 1, 2, 3, 4])
+            (beat[4], beat[5]) = (u64::from(filter == Filter::Bilinear), minima.into());
+            (beat, &[0, 1, 2, 3, 4, 5])
         }
     }
 }
@@ -46,39 +48,25 @@ pub fn command_beat(command: &Command) -> Beat {
     fields(command).0
 }
 
-/// The beats that put a pyramid into the memory.
-pub fn load_beats(pyramid: &Pyramid) -> Vec<Beat> {
-    load_commands(pyramid, 0).iter().map(command_beat).collect()
-}
-
-/// The commands that put a pyramid into the memory from word `offset` of the banks on.
-fn load_commands(pyramid: &Pyramid, offset: usize) -> Vec<Command> {
-    let mut commands = Vec::new();
-    for (level, placement) in pyramid.layout().into_iter().enumerate() {
-        let placement = Placement { base: placement.base + offset, ..placement };
-        commands.push(Command::Size { level, placement });
-    }
-    for (level, samples) in pyramid.levels.iter().enumerate() {
-        for (i, j) in (0..samples.height).flat_map(|j| (0..samples.width).map(move |i| (i, j))) {
-            commands.push(Command::Load { level, i, j, value: samples.at(i, j) });
-        }
-    }
-    commands
+/// The beats that put levels into the memory.
+pub fn load_beats<'a>(pyramids: impl Into<Pyramids<'a>>) -> Vec<Beat> {
+    pyramids.into().commands(0).map(|command| command_beat(&command)).collect()
 }
 
 /// The command of a beat.
 fn command_of(beat: &Beat) -> Command {
-    let [kind, level, u, v, bilinear, i, j, value, width, height, base, pitch, repeat_u, repeat_v] =
+    let [kind, level, u, v, bilinear, minima, i, j, value, width, height, base, minima_base, pitch, repeat_u, repeat_v] =
         std::array::from_fn(|at| beat[at] as usize);
+    let minima = minima == 1;
     match kind {
         0 => {
             let wrap = [repeat_u, repeat_v].map(|flag| wrap_of(flag as u64));
-            Command::Size { level, placement: Placement { width, height, base, pitch, wrap } }
+            Command::Size { level, placement: Placement { width, height, base, minima_base, pitch, wrap } }
         }
-        1 => Command::Load { level, i, j, value: value as u16 },
+        1 => Command::Load { level, minima, i, j, value: value as u16 },
         _ => {
             let filter = if bilinear == 1 { Filter::Bilinear } else { Filter::Nearest };
-            Command::Fetch { level, u: u as u32, v: v as u32, filter }
+            Command::Fetch { level, u: u as u32, v: v as u32, filter, minima }
         }
     }
 }
@@ -134,15 +122,19 @@ impl Requests {
         let far = self.random.chance(10);
         let level = self.random.below(if far { 16 } else { 4 }) as usize;
         let filter = if self.random.chance(75) { Filter::Bilinear } else { Filter::Nearest };
-        self.push(&Command::Fetch { level, u, v, filter });
+        let minima = self.random.chance(50);
+        self.push(&Command::Fetch { level, u, v, filter, minima });
     }
     fn fault(&mut self) {
-        let placement = Placement { width: 4, height: 4, base: 0, pitch: 2, wrap: [Wrap::Repeat, Wrap::Clamp] };
+        let wrap = [Wrap::Repeat, Wrap::Clamp];
+        let placement = Placement { width: 4, height: 4, base: 0, minima_base: 0, pitch: 2, wrap };
         let size = |level, placement| Command::Size { level, placement };
-        let bilinear = |u| Command::Fetch { level: 0, u, v: 1 << 15, filter: Filter::Bilinear };
+        let load = |i, j, value| Command::Load { level: 0, minima: false, i, j, value };
+        let read = |u, v| Command::Fetch { level: 0, u, v, filter: Filter::Bilinear, minima: false };
+        let bilinear = |u| read(u, 1 << 15);
         let all = |width, height| (0..width).flat_map(move |i| (0..height).map(move |j| (i, j)));
         let mut commands = vec![size(0, placement)];
-        commands.extend(all(4, 4).map(|(i, j)| Command::Load { level: 0, i, j, value: 9 }));
+        commands.extend(all(4, 4).map(|(i, j)| load(i, j, 9)));
         match self.random.below(10) {
             0 => commands.push(size(0, Placement { width: 0, ..placement })),
             1 => commands.push(size(0, Placement { height: 0, ..placement })),
@@ -150,15 +142,18 @@ impl Requests {
             3 => commands.push(size(0, Placement { height: 3, wrap: [Wrap::Repeat; 2], ..placement })),
             4 => commands.push(size(0, Placement { pitch: 1, ..placement })),
             5 => commands.push(size(2, placement)),
-            6 => commands.push(Command::Load { level: 0, i: 4, j: 0, value: 1 }),
-            7 => commands.push(Command::Load { level: 1, i: 0, j: 0, value: 1 }),
+            6 => commands.push(load(4, 0, 1)),
+            7 => commands.push(Command::Load { level: 1, minima: true, i: 0, j: 0, value: 1 }),
             8 => commands.push(bilinear((1 << COORDINATE_BITS) - 1)),
             _ => {
-                // The lower half lies beyond the memory.
-                let base = self.set.bank_words() - 2;
-                commands.push(size(0, Placement { base, ..placement }));
-                commands.extend(all(4, 4).map(|(i, j)| Command::Load { level: 0, i, j, value: 7 }));
-                commands.push(Command::Fetch { level: 0, u: 1 << 16, v: 3 << 15, filter: Filter::Bilinear });
+                // The lower half lies beyond the memory, that of the maxima or of the minima.
+                let minima = self.random.chance(50);
+                let end = self.set.bank_words() - 2;
+                let (base, minima_base) = if minima { (0, end) } else { (end, end) };
+                commands.push(size(0, Placement { base, minima_base, ..placement }));
+                commands.extend(all(4, 4).map(|(i, j)| load(i, j, 7)));
+                commands.extend(all(4, 4).map(|(i, j)| Command::Load { level: 0, minima, i, j, value: 8 }));
+                commands.push(Command::Fetch { level: 0, u: 1 << 16, v: 3 << 15, filter: Filter::Bilinear, minima });
             }
         }
         commands.push(bilinear(1 << 15));
@@ -181,12 +176,19 @@ impl Requests {
         let wrap = random_wrap(random, width, height);
         let map: Vec<u16> = (0..width * height).map(|_| random_sample(random)).collect();
         let levels = 1 + random.below(max_levels(width, height, Centring::Node, wrap) as u64) as usize;
-        let pyramid = golden(width, height, &map, Centring::Node, wrap, Extremum::Max, levels);
-        let pyramid = pyramid.expect("borders and levels fit the size");
+        let pyramid = |extremum| {
+            let pyramid = golden(width, height, &map, Centring::Node, wrap, extremum, levels);
+            pyramid.expect("borders and levels fit the size")
+        };
+        let both = [pyramid(Extremum::Max), pyramid(Extremum::Min)];
+        let mut pyramids = Pyramids::from(&both);
+        if random.chance(40) {
+            pyramids.minima = None;
+        }
         // Anywhere in the memory, its last word included.
-        let room = self.set.bank_words() - pyramid.bank_words();
+        let room = self.set.bank_words() - pyramids.bank_words();
         let offset = [0, room, random.below(room as u64 + 1) as usize][random.below(3) as usize];
-        let commands = load_commands(&pyramid, offset);
+        let commands: Vec<Command> = pyramids.commands(offset).collect();
         for command in &commands {
             self.push(command);
         }
@@ -207,7 +209,7 @@ impl Iterator for Requests {
 }
 
 /// The input fields and their bits.
-fn bits(set: &WidthSet) -> [(&'static str, usize); 14] {
+fn bits(set: &WidthSet) -> [(&'static str, usize); 16] {
     let (m, a) = (set.side_width(), set.texel_bits - 2);
     [
         ("kind", 2),
@@ -215,12 +217,14 @@ fn bits(set: &WidthSet) -> [(&'static str, usize); 14] {
         ("u", 29),
         ("v", 29),
         ("bilinear", 1),
+        ("minima", 1),
         ("i", m),
         ("j", m),
         ("value", 16),
         ("width", m),
         ("height", m),
         ("base", a),
+        ("minima_base", a),
         ("pitch", m),
         ("repeat_u", 1),
         ("repeat_v", 1),
@@ -254,8 +258,8 @@ impl Binding for MipFetchBinding {
         Box::new(Requests { set: *set, random: Random::new(seed), queue: VecDeque::new(), maps: 0 })
     }
     fn stimulus_format(&self) -> &'static str {
-        "kind (0 size, 1 load, 2 fetch), level, u, v, bilinear, i, j, value, width, height, base, pitch, repeat_u and \
-         repeat_v, all of them in every line"
+        "kind (0 size, 1 load, 2 fetch), level, u, v, bilinear, minima, i, j, value, width, height, base, minima_base, pitch, \
+         repeat_u and repeat_v, all of them in every line"
     }
     fn parse(&self, set: &WidthSet, numbers: &[i64]) -> Result<Beat, String> {
         let beat = unsigned_fields(numbers, &bits(set))?;

@@ -6,10 +6,13 @@
 //! map -> [mip_build] -> levels -> [mip_fetch]
 //!                                 .-> [perspective_correct] -> u, v -.
 //! base triangles -> [remesher] -> step                               +-> [mip_fetch] -> height -.
-//!                                 |-> [filter_level] -> level -------'                          |
+//!                                 |-> [filter_level] -> level -------+                          |
+//!                                 |-> [facing] -> minima ------------'                          |
 //!                                 `-> vertex -----------------------> [displace] <--------------'
 //!                                 step, at most 256 of them wait ---> [strip_unit] -> triangles
 //! ```
+//!
+//! Only a draw that reads minima where vertices face away has a use for facing.
 //!
 //! Every beat that leaves a block is compared with the block's golden model as it leaves. The emitted modules can run
 //! behind the blocks, compared cycle for cycle.
@@ -21,8 +24,10 @@ mod unit;
 
 pub use recording::PipelineRecording;
 
-use crate::binding::{Beat, find, unpack};
+use crate::binding::{Beat, Random, find, unpack};
+use crate::cosim::Stalls;
 use crate::displace;
+use crate::facing;
 use crate::filter_level;
 use crate::mip_build::{size_beat, texel_beat};
 use crate::mip_fetch::{command_beat, load_beats};
@@ -38,6 +43,7 @@ use relief_models::light::Light;
 use relief_models::mip_build::{BuildSize, Level, Pyramid, side_above};
 use relief_models::mip_fetch::{Command, Filter};
 use relief_models::remesher::BaseTriangle;
+use relief_models::rules::Pyramids;
 use relief_models::step::{MAX_COMPONENTS, Step, Vertex};
 use relief_models::vertex_transform::lane;
 use serde::Serialize;
@@ -54,6 +60,7 @@ pub const BLOCKS: [&str; COUNT] = [
     "remesher",
     "perspective_correct",
     "filter_level",
+    "facing",
     "mip_fetch",
     "displace",
     "strip_unit",
@@ -144,9 +151,12 @@ struct Queues {
 
 impl Queues {
     /// Takes a vertex of the remesher.
-    fn take(&mut self, vertex: &Vertex) {
+    fn take(&mut self, draw: &Draw, vertex: &Vertex) {
         for unit in [PERSPECTIVE, LEVEL, DISPLACE] {
             self.vertices[unit].push_back(*vertex);
+        }
+        if draw.rules.reads_both() {
+            self.vertices[FACING].push_back(*vertex);
         }
     }
 
@@ -162,12 +172,24 @@ impl Queues {
                 let vertex = self.vertices[unit].pop_front()?;
                 Some(filter_level::beat(vertex[lane::DENSITY], vertex[lane::C], &draw.level))
             }
+            FACING => {
+                let vertex = self.vertices[unit].pop_front()?;
+                let normal = std::array::from_fn(|k| vertex[lane::NORMAL + k]);
+                Some(facing::beat(normal, [vertex[lane::X], vertex[lane::Y]], draw.displacement.focal))
+            }
             FETCH => {
                 self.done[LEVEL].front()?;
+                let minima = match draw.rules.reads_both() {
+                    true => {
+                        self.done[PERSPECTIVE].front()?;
+                        self.done[FACING].pop_front()?[0] == 1
+                    }
+                    false => false,
+                };
                 let texel = self.done[PERSPECTIVE].pop_front()?;
                 let level = self.done[LEVEL].pop_front()?[0] as usize;
                 let (u, v) = (texel[0] as u32, texel[1] as u32);
-                Some(command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear }))
+                Some(command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear, minima }))
             }
             _ => {
                 let q = self.done[FETCH].pop_front()?[0];
@@ -192,9 +214,11 @@ pub struct Pipeline {
     ports: TrianglePorts,
     modules: Vec<Replay>,
     counts: Counts,
+    /// Which cycles a stream is held up in, and how many of a hundred.
+    stalls: (Random, u8),
 }
 
-const COUNT: usize = 12;
+const COUNT: usize = 13;
 const BUILD: usize = 0;
 const TRANSFORM: usize = 1;
 const CULL: usize = 2;
@@ -202,11 +226,12 @@ const CLIP: usize = 3;
 const REMESHER: usize = 4;
 const PERSPECTIVE: usize = 5;
 const LEVEL: usize = 6;
-const FETCH: usize = 7;
-const DISPLACE: usize = 8;
-const STRIP: usize = 9;
-const FACE: usize = 10;
-const LIGHT: usize = 11;
+const FACING: usize = 7;
+const FETCH: usize = 8;
+const DISPLACE: usize = 9;
+const STRIP: usize = 10;
+const FACE: usize = 11;
+const LIGHT: usize = 12;
 /// The blocks of the draw's clock.
 const DRAW: std::ops::RangeFrom<usize> = REMESHER..;
 
@@ -215,7 +240,18 @@ impl Pipeline {
     pub fn new(set: &'static WidthSet) -> Self {
         let units = BLOCKS.map(|name| Unit::new(find(name).expect("a block of the list"), set));
         let ports = TrianglePorts::of(&units[STRIP].stage.layout, set);
-        Self { set, units, ports, modules: Vec::new(), counts: Counts::default() }
+        Self { set, units, ports, modules: Vec::new(), counts: Counts::default(), stalls: (Random::new(0), 0) }
+    }
+
+    /// Holds up every stream of the draw at random from now on.
+    pub fn stall(&mut self, stalls: Stalls) {
+        self.stalls = (Random::new(stalls.seed.into()), stalls.percent);
+    }
+
+    /// Whether a stream moves in this cycle.
+    fn opens(&mut self) -> bool {
+        let (random, percent) = &mut self.stalls;
+        *percent == 0 || !random.chance(*percent)
     }
 
     /// Emits the blocks, builds them in Verilator, and lets them follow from now on.
@@ -240,12 +276,12 @@ impl Pipeline {
         self.modules.iter().map(Replay::followed).collect()
     }
 
-    /// Builds the levels of a map, of maxima: the map itself, its pole rows as the builder sends them, and what stands
-    /// above.
+    /// Builds the levels of a map, of maxima and of minima: the map itself, its pole rows with the greatest sample as the
+    /// builder sends it, and what stands above.
     ///
     /// # Errors
     /// The block is at fault.
-    pub fn build(&mut self, size: &BuildSize, samples: &[u16]) -> Result<Pyramid, PipelineError> {
+    pub fn build(&mut self, size: &BuildSize, samples: &[u16]) -> Result<[Pyramid; 2], PipelineError> {
         let BuildSize { width, height, wrap, centring, levels, poles } = *size;
         let mut pyramid = Pyramid { levels: Vec::new(), centring, wrap };
         let (mut w, mut h) = (width, height);
@@ -254,6 +290,7 @@ impl Pipeline {
             (w, h) = (side_above(w, centring, wrap[0]), side_above(h, centring, wrap[1]));
         }
         pyramid.levels[0].samples.copy_from_slice(samples);
+        let mut minima = pyramid.clone();
         let pole_samples = if poles { width * height.min(2) } else { 0 };
         let mut awaited = pole_samples + pyramid.levels[1..].iter().map(|level| level.samples.len()).sum::<usize>();
         let mut beats = std::iter::once(size_beat(size)).chain(samples.iter().map(|sample| texel_beat(*sample)));
@@ -273,8 +310,10 @@ impl Pipeline {
             unit.finish(&mut sent)?;
             if let Some(words) = sent {
                 let [level, i, j] = [0, 1, 2].map(|at| words[at] as usize);
-                let level = &mut pyramid.levels[level];
-                level.samples[j * level.width + i] = words[3] as u16;
+                for (pyramid, word) in [(&mut pyramid, 3), (&mut minima, if level == 0 { 3 } else { 4 })] {
+                    let level = &mut pyramid.levels[level];
+                    level.samples[j * level.width + i] = words[word] as u16;
+                }
                 // A node too many would have been a mismatch.
                 awaited -= 1;
             }
@@ -287,16 +326,16 @@ impl Pipeline {
             }
         }
         self.units[BUILD].no_error()?;
-        Ok(pyramid)
+        Ok([pyramid, minima])
     }
 
     /// Fills the map memory.
     ///
     /// # Errors
     /// A block is at fault.
-    pub fn load(&mut self, pyramid: &Pyramid) -> Result<(), PipelineError> {
+    pub fn load(&mut self, pyramids: Pyramids<'_>) -> Result<(), PipelineError> {
         let mut silent = 0;
-        for beat in load_beats(pyramid) {
+        for beat in load_beats(pyramids) {
             self.units[FETCH].offer(&beat);
             loop {
                 self.units[FETCH].settle();
@@ -342,26 +381,33 @@ impl Pipeline {
         let mut silent = 0;
         while done < bases.len() || !shading.is_empty() {
             if !self.units[REMESHER].offers()
+                && self.opens()
                 && let Some(base) = bases.get(offered)
             {
                 self.units[REMESHER].offer(&beat_of(self.set, base));
                 offered += 1;
             }
-            for unit in [PERSPECTIVE, LEVEL, FETCH, DISPLACE] {
+            for unit in [PERSPECTIVE, LEVEL, FACING, FETCH, DISPLACE] {
                 if !self.units[unit].offers()
+                    && self.opens()
                     && let Some(beat) = queues.next(draw, unit)
                 {
                     self.units[unit].offer(&beat);
                 }
             }
             if !self.units[STRIP].offers()
+                && self.opens()
                 && let Some(step) = waiting.pop_front_if(|front| front.lacking == 0)
             {
                 self.units[STRIP].offer(&words_of(self.set, &step.step));
                 gone += 1;
             }
             shading.offer(&mut self.units);
-            let room = waiting.len() < DEPTH;
+            for unit in DRAW.start..COUNT {
+                let opens = self.opens();
+                self.units[unit].take(opens);
+            }
+            let room = waiting.len() < DEPTH && self.opens();
             self.units[REMESHER].take(room);
             self.units[DRAW].iter_mut().for_each(Unit::settle);
             if let Some(recording) = recording {
@@ -387,7 +433,7 @@ impl Pipeline {
             for (unit, sent) in self.units.iter_mut().zip(&mut sent).skip(REMESHER) {
                 unit.finish(sent)?;
             }
-            for unit in [PERSPECTIVE, LEVEL, FETCH] {
+            for unit in [PERSPECTIVE, LEVEL, FACING, FETCH] {
                 if let Some(words) = sent[unit].take() {
                     queues.done[unit].push_back(words);
                 }
@@ -406,7 +452,7 @@ impl Pipeline {
                     [(step.sends_left(), false, &step.left_vertex), (step.sends_right(), true, &step.right_vertex)];
                 let mut lacking = 0;
                 for (_, right, vertex) in vertices.into_iter().filter(|(sends, ..)| *sends) {
-                    queues.take(&draw.lanes.widen(vertex));
+                    queues.take(draw, &draw.lanes.widen(vertex));
                     owners.push_back((number, right));
                     lacking += 1;
                 }

@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 22] = [
+const NAMES: [&str; 23] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -28,6 +28,7 @@ const NAMES: [&str; 22] = [
     "rsqrt",
     "perspective_correct",
     "filter_level",
+    "facing",
     "displace",
     "power",
     "face_normal",
@@ -564,6 +565,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("rsqrt", "1000"),
         ("perspective_correct", "1000"),
         ("filter_level", "1000"),
+        ("facing", "1000"),
         ("displace", "1000"),
         ("power", "1000"),
         ("face_normal", "1000"),

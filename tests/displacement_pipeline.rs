@@ -3,10 +3,12 @@
 
 mod common;
 
-use relief_hdl::widths::terrain;
-use relief_testbench::binding::{Binding, expect_offered, offered_sets};
-use relief_testbench::cosim::tools;
+use relief_hdl::widths::{small, terrain};
+use relief_testbench::binding::{Binding, Expected, expect_offered, offered_sets};
+use relief_testbench::check::emitted;
+use relief_testbench::cosim::{Link, Stalls, Stream, Verilator, tools};
 use relief_testbench::displacement_pipeline::DisplacementPipelineBinding;
+use relief_testbench::frame::LINKS;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -71,23 +73,67 @@ fn displacement_pipeline_matches_golden_under_idle_cycles_and_backpressure() {
     assert!(counts.iter().all(|counts| counts.checked > 100), "{}", block.name());
 }
 
+/// A design is compiled once for both tests that hold it up.
+const STALLS: Stalls = Stalls { percent: 35, seed: 1 };
+
+/// Random draws through the emitted design, every stream between its blocks held up at random.
+#[test]
+fn displacement_pipeline_sends_the_same_when_its_streams_are_held_up() -> Outcome {
+    if !tools::require_all(&["verilator", "g++"], "the design held up")? {
+        return Ok(());
+    }
+    let (block, set) = (&DisplacementPipelineBinding, &small::SET);
+    let mut emitted = emitted(block, set, None)?;
+    emitted.design.stall(&LINKS, STALLS)?;
+    let unknown = Link { module: "relief_assembly", instance: "clip", ports: ["out_valid", "out_wait"] };
+    let refused = emitted.design.stall(&[unknown], STALLS).map_err(|error| error.to_string());
+    assert!(refused.is_err_and(|error| error.contains("has no place in the text of its module")));
+    let stream = Stream::build(&emitted.design, &Verilator::new())?;
+    let beats: Vec<_> = block.random(set, 9).take(60_000).collect();
+    let (mut model, mut expected) = (block.model(set), Vec::new());
+    beats.iter().for_each(|beat| model.accept(beat, &mut expected));
+    let rows = stream.rows(beats.iter().map(Vec::as_slice));
+    for seed in [1, 2] {
+        let streamed = stream.run(&rows, 4096, Stalls { seed, ..STALLS })?;
+        assert!(expected.len() > 5_000 && streamed.beats.len() == expected.len(), "{}", expected.len());
+        for (k, ((_, words), Expected { words: wanted, mask })) in streamed.iter().zip(&expected).enumerate() {
+            assert!(words.iter().zip(wanted).zip(mask).all(|((got, want), mask)| (got ^ want) & mask == 0), "{k}");
+        }
+    }
+    Ok(())
+}
+
 #[test]
 fn displacement_pipeline_run_draws_the_picture_of_the_blocks() -> Outcome {
     if !tools::require_all(&["verilator", "g++"], "a scene through the design")? {
         return Ok(());
     }
     let folder = tempfile::tempdir()?;
-    for (name, changes) in [
-        ("jacksboro.toml", &[("cell_px = 2.0", "cell_px = 8.0"), ("[640, 480]", "[160, 120]")]),
-        ("sphere.toml", &[("cell_px = 2.0", "cell_px = 9.0"), ("[256, 129]", "[96, 60]")]),
+    let stalls = STALLS.percent.to_string();
+    for (name, changes, options) in [
+        ("jacksboro.toml", &[("cell_px = 2.0", "cell_px = 8.0"), ("[640, 480]", "[160, 120]")], &[][..]),
+        // Two pyramids, and every stream held up.
+        (
+            "sphere.toml",
+            &[("cell_px = 2.0", "cell_px = 9.0\nextremum = \"vertex\""), ("[256, 129]", "[96, 60]")],
+            &["--param", "small", "--stalls", stalls.as_str()],
+        ),
     ] {
         let path = scene(folder.path(), name, changes);
         let [blocks, design] = ["rust", "design"].map(|engine| {
             let out = folder.path().join(engine);
-            let (code, stdout, stderr) = run(&path, &out, &["--engine", engine]);
+            let (code, stdout, stderr) = run(&path, &out, &[&["--engine", engine], options].concat());
             assert_eq!((code, stderr.as_str()), (Some(0), ""), "{name} {engine}: {stdout}");
+            assert_eq!(stdout.contains("% of the cycles of each stream"), !options.is_empty(), "{name} {engine}");
             out
         });
+        if !options.is_empty() {
+            // What leaves does not know of it.
+            let free = folder.path().join("free");
+            let (code, ..) = run(&path, &free, &options[..2]);
+            assert_eq!((code, fs::read(free.join("frame.png"))?), (Some(0), fs::read(blocks.join("frame.png"))?));
+            assert_eq!(fs::read(free.join("mesh.obj"))?, fs::read(blocks.join("mesh.obj"))?);
+        }
         assert_eq!(fs::read(blocks.join("frame.png"))?, fs::read(design.join("frame.png"))?, "{name}");
         let report = |out: &Path| -> Result<serde_json::Value, Box<dyn std::error::Error>> {
             Ok(serde_json::from_str(&fs::read_to_string(out.join("report.json"))?)?)

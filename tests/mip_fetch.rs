@@ -86,7 +86,7 @@ fn mip_fetch_reads_a_large_map_one_value_a_cycle() {
     for _ in 0..fetches {
         let [u, v] = [random.below(256 << 16) as u32, random.below(191 << 16) as u32];
         let filter = if random.chance(80) { Filter::Bilinear } else { Filter::Nearest };
-        beats.push(command_beat(&Command::Fetch { level: random.below(8) as usize, u, v, filter }));
+        beats.push(command_beat(&Command::Fetch { level: random.below(8) as usize, u, v, filter, minima: false }));
     }
     let all = beats.len() as u64;
     let (counts, error, _) = run(&small::SET, beats, Pattern::NONE);
@@ -96,10 +96,11 @@ fn mip_fetch_reads_a_large_map_one_value_a_cycle() {
 
 #[test]
 fn mip_fetch_errors_are_sticky_and_come_with_their_beat() {
-    let sound = Placement { width: 4, height: 4, base: 0, pitch: 2, wrap: [Wrap::Repeat, Wrap::Clamp] };
+    let wrap = [Wrap::Repeat, Wrap::Clamp];
+    let sound = Placement { width: 4, height: 4, base: 0, minima_base: 0, pitch: 2, wrap };
     let size = |level, placement| Command::Size { level, placement };
-    let load = |level, i, j| Command::Load { level, i, j, value: 1 };
-    let at = |u, v| Command::Fetch { level: 0, u, v, filter: Filter::Bilinear };
+    let load = |level, i, j| Command::Load { level, minima: false, i, j, value: 1 };
+    let at = |u, v| Command::Fetch { level: 0, u, v, filter: Filter::Bilinear, minima: false };
     let set = &small::SET;
     let mut good = vec![size(0, sound)];
     good.extend((0..16).map(|k| load(0, k % 4, k / 4)));
@@ -132,7 +133,8 @@ fn mip_fetch_errors_are_sticky_and_come_with_their_beat() {
         }
         // A fetch of nothing, and one of a memory that ends in the middle of the level.
         assert!(run(set, beats(&[at(0, 0), at(1 << 29, 5)]), pattern).1);
-        let end = Placement { base: set.bank_words() - 2, ..sound };
+        let base = set.bank_words() - 2;
+        let end = Placement { base, minima_base: base, ..sound };
         let mut over = vec![size(0, end)];
         over.extend((0..8).map(|k| load(0, k % 4, k / 4)));
         over.push(at(1 << 16, 1 << 14));
@@ -152,7 +154,11 @@ fn mip_fetch_reset_in_the_middle_of_a_stream() {
     assert!(pyramid.bank_words() <= 16);
     let mut beats = load_beats(&pyramid);
     let points = [(0, 0, 0), (0, 1 << 15, 9 << 14), (1, 77_777, 5_555), (1, 5 << 16, 4 << 16)];
-    beats.extend(points.map(|(level, u, v)| command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear })));
+    beats.extend(
+        points.map(|(level, u, v)| {
+            command_beat(&Command::Fetch { level, u, v, filter: Filter::Bilinear, minima: false })
+        }),
+    );
     let cycle = |unit: &mut Stepped<Tiny>, beat: Option<&Beat>, ready: bool| {
         let block = unit.block_mut();
         block.out_ready.next = ready;
@@ -164,13 +170,15 @@ fn mip_fetch_reset_in_the_middle_of_a_stream() {
             block.in_u.next = word(2).into();
             block.in_v.next = word(3).into();
             block.in_bilinear.next = word(4) == 1;
-            block.in_i.next = word(5).into();
-            block.in_j.next = word(6).into();
-            block.in_value.next = word(7).into();
-            block.in_width.next = word(8).into();
-            block.in_height.next = word(9).into();
-            block.in_base.next = word(10).into();
-            block.in_pitch.next = word(11).into();
+            block.in_minima.next = word(5) == 1;
+            block.in_i.next = word(6).into();
+            block.in_j.next = word(7).into();
+            block.in_value.next = word(8).into();
+            block.in_width.next = word(9).into();
+            block.in_height.next = word(10).into();
+            block.in_base.next = word(11).into();
+            block.in_minima_base.next = word(12).into();
+            block.in_pitch.next = word(13).into();
         }
         unit.settle();
         let taken = beat.is_some() && unit.block().in_ready.val();
@@ -186,7 +194,7 @@ fn mip_fetch_reset_in_the_middle_of_a_stream() {
         }
         // An error, too: a fetch after the reset finds no size.
         unit.reset(1 + cycles % 2);
-        let nothing = command_beat(&Command::Fetch { level: 0, u: 0, v: 0, filter: Filter::Nearest });
+        let nothing = command_beat(&Command::Fetch { level: 0, u: 0, v: 0, filter: Filter::Nearest, minima: false });
         if cycles % 2 == 0 {
             cycle(&mut unit, Some(&nothing), true);
             let values: Vec<_> = (0..Tiny::LATENCY + 3).filter_map(|_| cycle(&mut unit, None, true).1).collect();

@@ -103,7 +103,7 @@ fn plan_and_run_refuse_with_a_sentence() -> Outcome {
     );
     // Rules that only golden has, by name and line.
     for (rule, expected) in
-        [("footprint = \"paper\"", "\"density\" is expected"), ("extremum = \"min\"", "\"max\" is expected")]
+        [("footprint = \"paper\"", "\"density\" is expected"), ("extremum = \"triangle\"", "\"vertex\" is expected")]
     {
         fs::write(&path, PLATE.replace("cell_px = 4", &format!("cell_px = 4\n{rule}")))?;
         let (field, value) = rule.split_once(" = ").ok_or("no value")?;

@@ -270,7 +270,8 @@ fn run_heights_are_those_of_the_file() -> Outcome {
     let (node, max) = (mip_build::Centring::Node, mip_build::Extremum::Max);
     let pyramid = mip_build::golden(map.width, map.height, &map.samples, node, clamp, max, 1)?;
     let texels = (0..344u32).flat_map(|v| (0..403u32).map(move |u| (u << 16, v << 16)));
-    let fetches = texels.map(|(u, v)| command_beat(&Command::Fetch { level: 0, u, v, filter: Filter::Bilinear }));
+    let fetches =
+        texels.map(|(u, v)| command_beat(&Command::Fetch { level: 0, u, v, filter: Filter::Bilinear, minima: false }));
     let beats = load_beats(&pyramid).into_iter().chain(fetches);
     let mut scoreboard = Scoreboard::new(&MipFetchBinding, &large::SET, Box::new(beats), Pattern::NONE);
     let value = scoreboard.layout().output("out_value");

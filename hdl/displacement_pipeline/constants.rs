@@ -10,7 +10,7 @@
 //! | 71 .. 75, 76 | ramp, ambient: red, green << 18, blue << 36 | UQ1.16 each |
 //! | 77     | specular, shininess << 17 | unsigned 25 |
 //! | 78, 79 | light: direction, colour | 3 x SQ1.16, 3 x UQ2.16 |
-//! | 80     | culls, skips << 1, passes << 2; halves of the viewport << 8, << 32 | Bits; 2 x UQ16.8 |
+//! | 80     | culls, skips << 1, passes << 2, minima << 3; halves of the viewport << 8, << 32 | Bits; 2 x UQ16.8 |
 
 use crate::prelude::*;
 
@@ -43,6 +43,7 @@ pub struct Constants {
     pub culls: Output<Bit>,
     pub skips: Output<Bit>,
     pub passes: Output<Bit>,
+    pub minima: Output<Bit>,
     pub half_width: Output<U<24>>,
     pub half_height: Output<U<24>>,
     focal_held: Register<U<32>>,
@@ -100,6 +101,7 @@ impl Logic for Constants {
         self.culls.next = self.draw_held.q.val().get_bit(0);
         self.skips.next = self.draw_held.q.val().get_bit(1);
         self.passes.next = self.draw_held.q.val().get_bit(2);
+        self.minima.next = self.draw_held.q.val().get_bit(3);
         self.half_width.next = self.draw_held.q.val().get_bits::<24>(8);
         self.half_height.next = self.draw_held.q.val().get_bits::<24>(32);
 

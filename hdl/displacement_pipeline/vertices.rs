@@ -4,6 +4,7 @@
 //! ```text
 //!        .-> codes --------------------------------------------------------------.
 //! step --+            .-> [perspective_correct] -> u, v -.                        +-> step
+//!        |            |-> [facing] -> minima ------------|                        |
 //!        '-> vertex --+-> [filter_level] -> level -------+-> [mip_fetch] -> q -.  |
 //!                     '-> lanes -----------------------------------> [displace] -> vertex
 //! ```
@@ -14,12 +15,14 @@
 //! | in_*     | stream | the step port; vertices of nine lanes of V bits
 //! | map_*    | stream | sizes and loads of [`crate::mip_fetch`], while no vertex is on its way
 //! | passes   | Bit    | the height is 0, whatever the map says
+//! | minima   | Bit    | vertices that face away read minima
 //! | out_*    | stream | the step port; vertices X' | flags << 22 | q << 25, Y' | (q >> 9) << 22, c' | (q >> 21) << 31
 //! | idle     | Bit    | nothing is on its way
 //! | sends, lacks_room, sends_second | Bit | a vertex goes; a step waits for room, or for its second vertex
 
 use crate::displace::Displace;
 use crate::displacement_pipeline::lane_queue::LaneQueue;
+use crate::facing::Facing;
 use crate::filter_level::FilterLevel;
 use crate::mip_fetch::MipFetch;
 use crate::perspective_correct::PerspectiveCorrect;
@@ -42,15 +45,18 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     pub map_valid: Input<Bit>,
     pub map_ready: Output<Bit>,
     pub map_loads: Input<Bit>,
+    pub map_minima: Input<Bit>,
     pub map_level: Input<U<4>>,
     pub map_i: Input<U<M>>,
     pub map_j: Input<U<M>>,
     pub map_value: Input<U<16>>,
     pub map_base: Input<U<A>>,
+    pub map_minima_base: Input<U<A>>,
     pub map_pitch: Input<U<M>>,
     pub map_repeat_u: Input<Bit>,
     pub map_repeat_v: Input<Bit>,
     pub passes: Input<Bit>,
+    pub minima: Input<Bit>,
     pub axis_u: Input<U<19>>,
     pub axis_v: Input<U<19>>,
     pub level: Input<U<35>>,
@@ -83,6 +89,8 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     codes: Gated<LaneQueue<1, 8, 8>>,
     perspective_correct: Gated<PerspectiveCorrect>,
     filter_level: Gated<FilterLevel>,
+    facing: Gated<Facing>,
+    aways: Gated<LaneQueue<1, 2, 6>>,
     texels: Gated<LaneQueue<2, 29, 6>>,
     mip_fetch: Gated<MipFetch<M, A>>,
     lanes: Gated<LaneQueue<6, V, 8>>,
@@ -109,6 +117,11 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     texel_u: Wire<S<29>>,
     texel_v: Wire<S<29>>,
     level_now: Wire<U<4>>,
+    normal_x: Wire<S<32>>,
+    normal_1: Wire<Lanes<3, 32>>,
+    normal_2: Wire<Lanes<3, 32>>,
+    away: Wire<S<2>>,
+    away_now: Wire<S<2>>,
     moved_x: Wire<S<32>>,
     moved_y: Wire<S<32>>,
     moved_c: Wire<S<32>>,
@@ -153,15 +166,18 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             map_valid: Input::default(),
             map_ready: Output::default(),
             map_loads: Input::default(),
+            map_minima: Input::default(),
             map_level: Input::default(),
             map_i: Input::default(),
             map_j: Input::default(),
             map_value: Input::default(),
             map_base: Input::default(),
+            map_minima_base: Input::default(),
             map_pitch: Input::default(),
             map_repeat_u: Input::default(),
             map_repeat_v: Input::default(),
             passes: Input::default(),
+            minima: Input::default(),
             axis_u: Input::default(),
             axis_v: Input::default(),
             level: Input::default(),
@@ -192,6 +208,8 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             codes: Gated::default(),
             perspective_correct: Gated::default(),
             filter_level: Gated::default(),
+            facing: Gated::default(),
+            aways: Gated::default(),
             texels: Gated::default(),
             mip_fetch: Gated::default(),
             lanes: Gated::default(),
@@ -217,6 +235,11 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             texel_u: Wire::default(),
             texel_v: Wire::default(),
             level_now: Wire::default(),
+            normal_x: Wire::default(),
+            normal_1: Wire::default(),
+            normal_2: Wire::default(),
+            away: Wire::default(),
+            away_now: Wire::default(),
             moved_x: Wire::default(),
             moved_y: Wire::default(),
             moved_c: Wire::default(),
@@ -245,7 +268,20 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
 impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A> {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, codes, perspective_correct, filter_level, texels, mip_fetch, lanes, displace, displaced);
+        clock!(
+            self,
+            clock,
+            codes,
+            perspective_correct,
+            filter_level,
+            facing,
+            aways,
+            texels,
+            mip_fetch,
+            lanes,
+            displace
+        );
+        clock!(self, clock, displaced);
         dff_setup!(self, clock, vertices, steps, room, second, s1_valid, s1_vertex, left, has_left);
 
         // A step sends its vertices one after the other, and is taken with the last.
@@ -303,6 +339,20 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.filter_level.in_shift.next = self.level.val().get_bits::<6>(24);
         self.filter_level.in_levels.next = self.level.val().get_bits::<5>(30);
         self.filter_level.out_ready.next = self.mip_fetch.in_ready.val();
+        self.facing.in_valid.next = self.s1_valid.q.val();
+        self.normal_x.next = self.whole.val().get_bit(3);
+        self.normal_1.next = bit_cast_to::<Lanes<3, 32>>(self.normal_x.val());
+        self.normal_2.next = self.normal_1.val().replace_bit(1, self.whole.val().get_bit(4));
+        self.facing.in_normal.next = self.normal_2.val().replace_bit(2, self.whole.val().get_bit(5));
+        self.facing.in_x.next = self.whole.val().get_bit(0);
+        self.facing.in_y.next = self.whole.val().get_bit(1);
+        self.facing.in_focal.next = self.focal.val();
+        self.facing.out_ready.next = true;
+        self.aways.push.next = self.facing.out_valid.val();
+        self.away.next = bit_cast_to::<S<2>>(self.facing.out_away.val());
+        self.aways.data.next = bit_cast_to::<Lanes<1, 2>>(self.away.val());
+        self.aways.take.next = self.filter_level.out_valid.val() && self.mip_fetch.in_ready.val();
+        self.away_now.next = self.aways.head.val().get_bit(0);
         self.texels.push.next = self.perspective_correct.out_valid.val();
         self.axis_texels.next = bit_cast_to::<Lanes<2, 29>>(bit_cast_to::<S<29>>(self.perspective_correct.out_u.val()));
         self.texels.data.next =
@@ -315,9 +365,11 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.mip_fetch.in_valid.next = self.filter_level.out_valid.val() || self.map_valid.val();
         self.mip_fetch.in_kind.next = 2.into();
         self.mip_fetch.in_level.next = self.level_now.val();
+        self.mip_fetch.in_minima.next = self.minima.val() && self.away_now.val().get_bit(0);
         if !self.filter_level.out_valid.val() {
             self.mip_fetch.in_kind.next = bit_cast_to::<U<2>>(self.map_loads.val());
             self.mip_fetch.in_level.next = self.map_level.val();
+            self.mip_fetch.in_minima.next = self.map_minima.val();
         }
         self.mip_fetch.in_u.next = bit_cast_to::<U<29>>(self.texel_u.val());
         self.mip_fetch.in_v.next = bit_cast_to::<U<29>>(self.texel_v.val());
@@ -328,6 +380,7 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.mip_fetch.in_width.next = self.map_i.val();
         self.mip_fetch.in_height.next = self.map_j.val();
         self.mip_fetch.in_base.next = self.map_base.val();
+        self.mip_fetch.in_minima_base.next = self.map_minima_base.val();
         self.mip_fetch.in_pitch.next = self.map_pitch.val();
         self.mip_fetch.in_repeat_u.next = self.map_repeat_u.val();
         self.mip_fetch.in_repeat_v.next = self.map_repeat_v.val();
@@ -425,4 +478,4 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
     }
 }
 
-watched! { [const V: usize, const M: usize, const A: usize] Vertices<V, M, A>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, map_valid, map_loads, map_level, map_i, map_j, map_value, map_base, map_pitch, map_repeat_u, map_repeat_v, passes, axis_u, axis_v, level, minimum, range, exponent, focal, out_ready; codes, perspective_correct, filter_level, texels, mip_fetch, lanes, displace, displaced; vertices, steps, room, second, s1_valid, s1_vertex, codes, perspective_correct, filter_level, texels, mip_fetch, lanes, displace, displaced, left, has_left }
+watched! { [const V: usize, const M: usize, const A: usize] Vertices<V, M, A>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, map_valid, map_loads, map_minima, map_level, map_i, map_j, map_value, map_base, map_minima_base, map_pitch, map_repeat_u, map_repeat_v, passes, minima, axis_u, axis_v, level, minimum, range, exponent, focal, out_ready; codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced; vertices, steps, room, second, s1_valid, s1_vertex, codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced, left, has_left }

@@ -11,7 +11,8 @@
 use super::machine::{Command, Light, counter};
 use super::numbers::{View, values};
 use crate::draw::Draw;
-use crate::mip_build::Pyramid;
+use crate::mip_fetch;
+use crate::rules::Pyramids;
 use rustc_hash::FxHashMap;
 
 /// Places of the design's vertex memory.
@@ -21,10 +22,19 @@ pub const VERTEX_PLACES: usize = 512;
 /// beyond its sides are left out.
 ///
 /// A draw that displaces nothing ([`Draw::is_flat`]) passes the remesher by.
-pub fn commands(draw: &Draw, pyramid: &Pyramid, light: &Light, viewport: [u32; 2], skips: bool) -> Vec<Command> {
+///
+/// `pyramids` are those that the draw's [rules](Draw::rules) read.
+pub fn commands<'a>(
+    draw: &Draw,
+    pyramids: impl Into<Pyramids<'a>>,
+    light: &Light,
+    viewport: [u32; 2],
+    skips: bool,
+) -> Vec<Command> {
     // Half a pixel is 128 / 256 of one.
     let view = View { skips, passes: draw.is_flat(), half: viewport.map(|side| i64::from(side) << 7) };
-    let mut out = map(pyramid);
+    let map = draw.rules.reads(pyramids.into());
+    let mut out: Vec<Command> = map.commands(0).filter_map(Command::of_map).collect();
     out.extend(values(draw, light, &view).into_iter().map(|(number, value)| Command::Constant { number, value }));
     let mut group = Group::default();
     for corners in &draw.triangles {
@@ -38,15 +48,15 @@ pub fn commands(draw: &Draw, pyramid: &Pyramid, light: &Light, viewport: [u32; 2
     out
 }
 
-/// The commands that put a pyramid into the memory, one level behind the other.
-fn map(pyramid: &Pyramid) -> Vec<Command> {
-    let layout = pyramid.layout().into_iter().enumerate();
-    let mut out: Vec<Command> = layout.map(|(level, placement)| Command::Size { level, placement }).collect();
-    for (level, samples) in pyramid.levels.iter().enumerate() {
-        let all = (0..samples.height).flat_map(|j| (0..samples.width).map(move |i| (i, j)));
-        out.extend(all.map(|(i, j)| Command::Load { level, i, j, value: samples.at(i, j) }));
+impl Command {
+    /// A size or a sample for the map's memory; a fetch is nobody's command.
+    const fn of_map(command: mip_fetch::Command) -> Option<Self> {
+        match command {
+            mip_fetch::Command::Size { level, placement } => Some(Self::Size { level, placement }),
+            mip_fetch::Command::Load { level, minima, i, j, value } => Some(Self::Load { level, minima, i, j, value }),
+            mip_fetch::Command::Fetch { .. } => None,
+        }
     }
-    out
 }
 
 /// Triangles whose vertices fit the vertex memory.

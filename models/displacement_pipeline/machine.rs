@@ -8,7 +8,7 @@ use super::numbers::{self, View};
 use super::strips;
 use crate::cull::Reason;
 use crate::displace::{displaced, flag};
-use crate::draw::{Assembled, Draw, DropReason};
+use crate::draw::{Assembled, Draw, DropReason, Request};
 pub(super) use crate::light::Light;
 use crate::mip_fetch::{self, Filter, MipFetch, Placement};
 use crate::remesher::{BaseTriangle, Format};
@@ -44,6 +44,8 @@ pub enum Command {
     Load {
         /// The level.
         level: usize,
+        /// Whether it is one of the minima.
+        minima: bool,
         /// Column.
         i: usize,
         /// Row.
@@ -191,8 +193,8 @@ impl Machine {
             Command::Size { level, placement } => {
                 self.map.accept(&mip_fetch::Command::Size { level, placement });
             }
-            Command::Load { level, i, j, value } => {
-                self.map.accept(&mip_fetch::Command::Load { level, i, j, value });
+            Command::Load { level, minima, i, j, value } => {
+                self.map.accept(&mip_fetch::Command::Load { level, minima, i, j, value });
             }
             Command::Triangle { places } if self.begun => self.triangle(places, sink),
             Command::Triangle { .. } => {}
@@ -234,9 +236,10 @@ impl Machine {
 
     fn remesh(&mut self, piece: &BaseTriangle, sink: &mut impl FnMut(Sent)) {
         let Self { format, draw, map, unit, counters, .. } = self;
-        let mut height = |request: &crate::draw::Request| {
-            let (level, u, v) = (request.level as usize, request.u, request.v);
-            map.accept(&mip_fetch::Command::Fetch { level, u, v, filter: Filter::Bilinear }).unwrap_or(0)
+        let mut height = |request: &Request| {
+            let &Request { level, u, v, minima } = request;
+            let fetch = mip_fetch::Command::Fetch { level: level as usize, u, v, filter: Filter::Bilinear, minima };
+            map.accept(&fetch).unwrap_or(0)
         };
         let mut triangles = Vec::new();
         strips(draw, format, piece, unit, &mut height, &mut |step, out| {

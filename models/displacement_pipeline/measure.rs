@@ -17,9 +17,9 @@ use super::displaced_vertex;
 use crate::displace::{self, displaced};
 use crate::draw::Draw;
 use crate::filter_level;
-use crate::mip_build::Pyramid;
 use crate::mip_fetch;
 use crate::remesher::{self, BaseTriangle, Format, Setup, exact};
+use crate::rules::Pyramids;
 use crate::step::{MAX_COMPONENTS, Vertex};
 use crate::vertex_transform::lane;
 use serde::Serialize;
@@ -77,8 +77,8 @@ pub struct Measure<'a> {
     pub draw: &'a Draw,
     /// Widths of the remesher.
     pub format: &'a Format,
-    /// All levels of the map; `draw` may use fewer.
-    pub pyramid: &'a Pyramid,
+    /// All levels of the map that the draw's rules read; it may use fewer.
+    pub pyramids: Pyramids<'a>,
     /// Columns and rows of the picture.
     pub viewport: [u32; 2],
 }
@@ -104,8 +104,9 @@ impl Measure<'_> {
     }
 
     fn vertex(&self, vertex: &Vertex, lanes: &[f64; MAX_COMPONENTS], out: &mut Deviation) {
-        let Self { draw, pyramid, viewport, .. } = self;
+        let Self { draw, pyramids, viewport, .. } = self;
         let request = draw.request(vertex);
+        let pyramid = if request.minima { pyramids.minima() } else { pyramids.maxima };
         out.sent += 1;
         out.highest = out.highest.max(request.level);
 
@@ -128,7 +129,7 @@ impl Measure<'_> {
         };
         let q = mip_fetch::exact(pyramid, level as usize, texel(0), texel(1));
         let exact = displace::exact(&draw.displacement, lanes, q);
-        let moved = displaced_vertex(draw, pyramid, vertex);
+        let moved = displaced_vertex(draw, *pyramids, vertex);
         let half = viewport.map(|side| f64::from(side) / 2.0);
         match (moved[displaced::FLAGS] == 0, exact) {
             (true, Some([x, y, _])) if x.abs() <= half[0] && y.abs() <= half[1] => {

@@ -15,12 +15,13 @@
 //! | 77       | specular (17 bits), shininess (8 bits) | UQ1.16, whole |
 //! | 78       | direction of the light: x, y, z, signed, 18 bits each | SQ1.16 |
 //! | 79       | colour of the light: red, green, blue, 20 bits each | UQ2.16 |
-//! | 80       | culls, skips, passes, half of the viewport's width at 8 and height at 32 (24 bits each) | 1/256 pixel |
+//! | 80       | culls, skips, passes, minima where a vertex faces away, half of the viewport's width at 8 and height at 32 (24 bits each) | 1/256 pixel |
 
 use super::machine::Light;
 use crate::draw::Draw;
 use crate::fixed::wrap;
 use crate::perspective_correct::Axis;
+use crate::rules::ExtremumRule;
 use crate::vertex_transform::numbers as transform;
 
 /// Axis u; v is the next.
@@ -83,7 +84,9 @@ pub fn values(draw: &Draw, light: &Light, view: &View) -> Vec<(u64, i64)> {
     others.push(i64::from(material.specular) | i64::from(material.shininess) << 17);
     others.push(three(light.direction.map(i64::from), 18));
     others.push(three(light.colour.map(i64::from), 20));
-    let switches = i64::from(draw.cull) | i64::from(view.skips) << 1 | i64::from(view.passes) << 2;
+    let minima = draw.rules.extremum == ExtremumRule::Vertex;
+    let switches =
+        i64::from(draw.cull) | i64::from(view.skips) << 1 | i64::from(view.passes) << 2 | i64::from(minima) << 3;
     others.push(switches | view.half[0] << 8 | view.half[1] << 32);
     out.extend((AXES..).zip(others));
     out
@@ -117,6 +120,7 @@ pub fn write(draw: &mut Draw, light: &mut Light, view: &mut View, number: u64, v
         79 => light.colour = colour(value, 20),
         VIEWPORT => {
             draw.cull = part(value, 0, 1) == 1;
+            draw.rules.extremum = if part(value, 3, 1) == 1 { ExtremumRule::Vertex } else { ExtremumRule::Max };
             *view = View {
                 skips: part(value, 1, 1) == 1,
                 passes: part(value, 2, 1) == 1,

@@ -62,12 +62,15 @@ impl Scene {
         self.pyramid_of(object, Extremum::Max)
     }
 
-    /// An object's levels, the greatest and the least, for [rules](crate::rules) that read minima.
+    /// An object's levels, the greatest and the least, for [rules](crate::rules) that read minima. Level 0 is one for both,
+    /// pole rows with their greatest sample.
     ///
     /// # Errors
     /// As of [`pyramid`](Self::pyramid).
     pub fn pyramids(&self, object: &Object) -> Result<[Pyramid; 2], MipError> {
-        Ok([self.pyramid(object)?, self.pyramid_of(object, Extremum::Min)?])
+        let (maxima, mut minima) = (self.pyramid(object)?, self.pyramid_of(object, Extremum::Min)?);
+        minima.levels[0].clone_from(&maxima.levels[0]);
+        Ok([maxima, minima])
     }
 
     fn pyramid_of(&self, object: &Object, extremum: Extremum) -> Result<Pyramid, MipError> {

@@ -15,7 +15,7 @@ pub(super) fn resolve(
     folder: &Path,
     warnings: &mut Vec<String>,
 ) -> Result<(HeightMap, String), Error> {
-    let check = |size: [usize; 2]| Limit::LARGEST.check(size, wrap, usize::MAX);
+    let check = |size: [usize; 2]| Limit::LARGEST.check(size, wrap, usize::MAX, false);
     match (&map.file, map.kind) {
         (Some(file), None) => {
             if map.size.is_some() {

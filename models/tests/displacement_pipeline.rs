@@ -8,6 +8,7 @@ use relief_models::draw::{Assembled, CameraView, Draw, DrawVertex, DropReason, M
 use relief_models::light::Light;
 use relief_models::mip_build::{self, Centring, Extremum, Pyramid, Wrap};
 use relief_models::remesher::Format;
+use relief_models::rules::ExtremumRule;
 use relief_models::step::Vertex;
 
 const FORMAT: Format =
@@ -67,10 +68,14 @@ fn camera(eye: DVec3, target: DVec3) -> CameraView {
 
 const MAP: MapInfo = MapInfo { width: 16, height: 9, repeat: [true, false], levels: 3 };
 
-fn pyramid() -> Pyramid {
+/// Maxima and minima.
+fn pyramids() -> [Pyramid; 2] {
     let samples: Vec<u16> = (0..16 * 9).map(|k: u32| (k * 7919 % 65_536) as u16).collect();
     let wrap = [Wrap::Repeat, Wrap::Clamp];
-    mip_build::golden_with_poles(16, 9, &samples, Centring::Node, wrap, Extremum::Max, 3).unwrap()
+    let [maxima, mut minima] = [Extremum::Max, Extremum::Min]
+        .map(|extremum| mip_build::golden_with_poles(16, 9, &samples, Centring::Node, wrap, extremum, 3).unwrap());
+    minima.levels[0] = maxima.levels[0].clone();
+    [maxima, minima]
 }
 
 fn light(draw: &Draw) -> Light {
@@ -82,7 +87,7 @@ type Lit = ([Vertex; 3], [u8; 3]);
 /// What the machine sends for a draw: triangles and counters.
 fn machine(draw: &Draw, format: &Format, skips: bool) -> (Vec<Lit>, Vec<(u64, Option<u32>)>) {
     let mut machine = Machine::new(format, VERTEX_PLACES, BANK_WORDS);
-    run(&mut machine, &commands(draw, &pyramid(), &light(draw), VIEWPORT, skips))
+    run(&mut machine, &commands(draw, &pyramids(), &light(draw), VIEWPORT, skips))
 }
 
 fn run(machine: &mut Machine, commands: &[Command]) -> (Vec<Lit>, Vec<(u64, Option<u32>)>) {
@@ -99,7 +104,7 @@ fn run(machine: &mut Machine, commands: &[Command]) -> (Vec<Lit>, Vec<(u64, Opti
 
 /// What the harness makes of the same draw, and how many of its triangles have no place and are off the screen.
 fn chain(draw: &Draw, format: &Format, skips: bool) -> (Vec<Lit>, [u64; 2]) {
-    let (pyramid, light) = (pyramid(), light(draw));
+    let (pyramids, light) = (pyramids(), light(draw));
     let (mut out, mut left_out) = (Vec::new(), [0; 2]);
     let half = VIEWPORT.map(|side| i64::from(side) * 128);
     let mut take = |triangle: [Vertex; 3]| {
@@ -118,7 +123,7 @@ fn chain(draw: &Draw, format: &Format, skips: bool) -> (Vec<Lit>, [u64; 2]) {
             if draw.is_flat() {
                 take(piece.data.map(|vertex| draw.displace(&vertex, 0)));
             } else {
-                golden(draw, format, &pyramid, piece, &mut take);
+                golden(draw, format, &pyramids, piece, &mut take);
             }
         }
     }
@@ -208,7 +213,7 @@ fn machine_takes_a_body_in_groups() {
     let counts = compare(&draw, &FORMAT);
     assert_eq!(counts[counter::BASES], body.1.len() as u64);
     // Every place fits, constant 0 comes once, and no triangle names a vertex that has not come.
-    let all = commands(&draw, &pyramid(), &light(&draw), VIEWPORT, false);
+    let all = commands(&draw, &pyramids(), &light(&draw), VIEWPORT, false);
     let first = all.iter().filter(|command| matches!(command, Command::Constant { number: 0, .. }));
     assert_eq!(first.count(), 1);
     let (mut filled, mut records) = ([false; VERTEX_PLACES], 0);
@@ -220,6 +225,23 @@ fn machine_takes_a_body_in_groups() {
         }
     }
     assert!(records > body.0.len(), "the border of two groups is sent twice");
+}
+
+/// By maxima, by minima, and by minima where a vertex faces away: three bodies, where voxels are larger than texels.
+#[test]
+fn machine_reads_maxima_or_minima() {
+    let view = CameraView { cell_px: 40.0, ..camera(DVec3::new(0.7, -1.1, 0.4), DVec3::ZERO) };
+    let mut draw = draw(&view, &sphere(8, 6), [-0.02, 0.1], &FORMAT);
+    let bodies = [ExtremumRule::Max, ExtremumRule::Min, ExtremumRule::Vertex].map(|extremum| {
+        draw.rules.extremum = extremum;
+        for cull in [false, true] {
+            draw.cull = cull;
+            compare(&draw, &FORMAT);
+        }
+        draw.cull = false;
+        machine(&draw, &FORMAT, false).0
+    });
+    assert!(bodies[0] != bodies[1] && bodies[1] != bodies[2] && bodies[0] != bodies[2]);
 }
 
 #[test]
@@ -237,7 +259,7 @@ fn machine_counts_by_draw_and_keeps_the_map() {
     let view = camera(DVec3::new(0.1, -1.0, 0.4), DVec3::new(0.3, 1.0, 0.0));
     let draw = draw(&view, &ground(1.0, 2), [-0.02, 0.05], &FORMAT);
     let mut machine = Machine::new(&FORMAT, VERTEX_PLACES, BANK_WORDS);
-    let all = commands(&draw, &pyramid(), &light(&draw), VIEWPORT, false);
+    let all = commands(&draw, &pyramids(), &light(&draw), VIEWPORT, false);
     let first = run(&mut machine, &all);
     // Without the map again.
     let rest: Vec<Command> =

@@ -22,7 +22,7 @@ fn refusal(bytes: &[u8]) -> String {
 
 /// Whether the default memory holds a map that is clamped.
 fn fits(size: [usize; 2]) -> Result<(), String> {
-    Limit::LARGEST.check(size, [Wrap::Clamp; 2], usize::MAX)
+    Limit::LARGEST.check(size, [Wrap::Clamp; 2], usize::MAX, false)
 }
 
 #[test]
@@ -155,16 +155,16 @@ fn map_levels_and_words() {
     for (size, wrap) in [([403, 344], [Clamp, Clamp]), ([512, 257], [Repeat, Clamp]), ([7, 1], [Clamp, Clamp])] {
         let (samples, count) = (vec![0; size[0] * size[1]], levels(size, wrap).len());
         let pyramid = golden(size[0], size[1], &samples, Centring::Node, wrap, Extremum::Max, count).unwrap();
-        assert_eq!(bank_words(size, wrap, usize::MAX), pyramid.bank_words() as u64, "{size:?}");
+        assert_eq!(bank_words(size, wrap, usize::MAX, false), pyramid.bank_words() as u64, "{size:?}");
     }
     assert!(
-        bank_words([625, 625], [Clamp, Clamp], usize::MAX) <= 131_072
-            && bank_words([626, 626], [Clamp, Clamp], usize::MAX) > 131_072
+        bank_words([625, 625], [Clamp, Clamp], usize::MAX, false) <= 131_072
+            && bank_words([626, 626], [Clamp, Clamp], usize::MAX, false) > 131_072
     );
     // What fits the memory fits the builder's, too, which holds level 1.
     for (width, height) in (1..200).flat_map(|w| [(w * 10, 1), (w * 10, 2_621_440 / (w * 200)), (w, w * 10), (w, w)]) {
         for wrap in [[Clamp, Clamp], [Repeat, Clamp], [Repeat, Repeat]] {
-            if Limit::LARGEST.check([width, height], wrap, usize::MAX).is_ok()
+            if Limit::LARGEST.check([width, height], wrap, usize::MAX, false).is_ok()
                 && let Some([w, h]) = levels([width, height], wrap).get(1)
             {
                 assert!(w * h <= 131_072, "{width} x {height}");

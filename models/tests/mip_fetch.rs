@@ -5,6 +5,7 @@ use proptest::prelude::*;
 use relief_models::map::read;
 use relief_models::mip_build::{Centring, Extremum, Pyramid, Wrap, golden, max_levels};
 use relief_models::mip_fetch::{Command, Filter, MipFetch, Placement, exact, fetch, fetch_checked};
+use relief_models::rules::Pyramids;
 
 fn random_map(count: usize, seed: u64) -> Vec<u16> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ 0x2545_f491_4f6c_dd1d;
@@ -190,37 +191,51 @@ fn mip_fetch_a_pyramid_of_403_x_344_fits_the_large_memory() {
 #[test]
 fn mip_fetch_memory_equals_the_pyramid_and_says_what_it_refuses() {
     let map = random_map(12 * 7, 3);
-    let pyramid = pyramid(12, 7, &map, [Wrap::Repeat, Wrap::Clamp], Extremum::Min);
-    let bank_words = pyramid.bank_words();
+    let both =
+        [Extremum::Max, Extremum::Min].map(|extremum| pyramid(12, 7, &map, [Wrap::Repeat, Wrap::Clamp], extremum));
+    let pyramids = Pyramids::from(&both);
+    let pyramid = &both[0];
+    let bank_words = pyramids.bank_words();
+    let layout = pyramids.layout();
+    assert!(!layout[0].has_minima() && layout[1..].iter().all(Placement::has_minima));
+    assert_eq!(bank_words, pyramid.bank_words() + layout[1..].iter().map(Placement::words).sum::<usize>());
     let fill = |memory: &mut MipFetch| {
-        for (level, (placement, samples)) in pyramid.layout().into_iter().zip(&pyramid.levels).enumerate() {
-            assert_eq!(memory.accept(&Command::Size { level, placement }), None);
-            for (i, j) in (0..samples.width).flat_map(|i| (0..samples.height).map(move |j| (i, j))) {
-                assert_eq!(memory.accept(&Command::Load { level, i, j, value: samples.at(i, j) }), None);
-            }
-        }
+        pyramids.commands(0).for_each(|command| assert_eq!(memory.accept(&command), None));
     };
     let mut memory = MipFetch::new(bank_words);
     fill(&mut memory);
+    let mut apart = 0;
     for k in 0..20_000u32 {
         let (level, u, v) = ((k % 5) as usize, k.wrapping_mul(0x9e37) % (24 << 16), k.wrapping_mul(0x85eb) % (9 << 16));
         for filter in [Filter::Nearest, Filter::Bilinear] {
-            let got = memory.accept(&Command::Fetch { level, u, v, filter });
-            assert_eq!(got, Some(fetch(&pyramid, level, u, v, filter)));
+            let [greatest, least] = [false, true].map(|minima| {
+                let got = memory.accept(&Command::Fetch { level, u, v, filter, minima });
+                assert_eq!(got, Some(fetch(&both[usize::from(minima)], level, u, v, filter)));
+                got
+            });
+            assert!(least <= greatest);
+            apart += u32::from(least < greatest);
         }
     }
+    assert!(apart > 5_000, "{apart}");
+    // Where there is one pyramid, minima are what it has.
+    let mut alone = MipFetch::new(bank_words);
+    Pyramids::from(pyramid).commands(0).for_each(|command| assert_eq!(alone.accept(&command), None));
+    let of = |minima| Command::Fetch { level: 1, u: 1 << 17, v: 1 << 17, filter: Filter::Bilinear, minima };
+    assert_eq!(alone.accept(&of(true)), alone.accept(&of(false)));
     assert!(!memory.error());
     let sound = pyramid.layout()[0];
     let size = |level, placement| Command::Size { level, placement };
-    let bilinear = |u| Command::Fetch { level: 0, u, v: 0, filter: Filter::Bilinear };
+    let bilinear = |u| Command::Fetch { level: 0, u, v: 0, filter: Filter::Bilinear, minima: false };
+    let load = |level, minima, i, j| Command::Load { level, minima, i, j, value: 1 };
     let wrong: [(&str, Command); 9] = [
         ("a size of nothing", size(0, Placement { width: 0, ..sound })),
         ("an odd period", size(0, Placement { width: 11, ..sound })),
         ("rows that overlap", size(0, Placement { pitch: 5, ..sound })),
         ("a level left out", size(4, sound)),
-        ("a column outside", Command::Load { level: 0, i: 12, j: 0, value: 1 }),
-        ("a row outside", Command::Load { level: 1, i: 0, j: 4, value: 1 }),
-        ("a level that is not there", Command::Load { level: 2, i: 0, j: 0, value: 1 }),
+        ("a column outside", load(0, false, 12, 0)),
+        ("a row outside", load(1, true, 0, 4)),
+        ("a level that is not there", load(2, true, 0, 0)),
         ("two periods", bilinear(24 << 16)),
         ("a fetch after a refused size", bilinear(0)),
     ];

@@ -3,10 +3,11 @@
 
 use relief_models::draw::Assembled;
 use relief_models::exact_footprint;
+use relief_models::facing;
 use relief_models::failures::{RULE_CELLS, RULES, rule_body, rule_rows};
 use relief_models::filter_level::thresholds;
 use relief_models::remesher::{BaseTriangle, Place, Setup, exact, observe};
-use relief_models::rules::{ExtremumRule, FootprintRule, Ruled, Rules, faces_away};
+use relief_models::rules::{ExtremumRule, FootprintRule, Ruled, Rules};
 use relief_models::scene::parse;
 use relief_models::step::{MAX_COMPONENTS, Vertex};
 use relief_models::vertex_transform::lane;
@@ -27,7 +28,7 @@ fn rules_crack_unless_all_base_triangles_agree() {
         |rules: Rules| -> u64 { rows.iter().filter(|row| row.rules == rules).map(|row| row.closure.cracks).sum() };
     // An edge sees only its own direction, and lies lower than what is beside it: why the density is the rule even so.
     let steps = |footprint: FootprintRule| -> f64 {
-        let of = rows.iter().filter(|row| row.rules == Rules { footprint, ..Rules::HARDWARE } && row.cell_px == 5.0);
+        let of = rows.iter().filter(|row| row.rules == Rules { footprint, ..Rules::DEFAULT } && row.cell_px == 5.0);
         of.map(|row| row.stepped as f64 / row.links as f64).sum()
     };
     assert!(steps(FootprintRule::Exact) > 4.0 * steps(FootprintRule::Density));
@@ -71,7 +72,7 @@ fn exact_footprint_has_the_level_of_f64() {
     let (mut worst, mut vertices, mut near, mut seen) = (0.0f64, 0u64, 0u64, [0u64; 9]);
     for cell_px in [1.0, 5.0, 20.0] {
         scene.remesh.cell_px = cell_px;
-        scene.remesh.rules = Rules { footprint: FootprintRule::Exact, ..Rules::HARDWARE };
+        scene.remesh.rules = Rules { footprint: FootprintRule::Exact, ..Rules::DEFAULT };
         let mut draw = scene.draw(&scene.objects[0], &scene.view(), &format).unwrap();
         draw.cull = false;
         for index in 0..draw.triangles.len() {
@@ -119,6 +120,7 @@ fn rules_tell_front_from_back() {
     let (scene, format) = rule_body();
     let mut draw = scene.draw(&scene.objects[0], &scene.view(), &format).unwrap();
     (draw.cull, draw.rules.extremum) = (false, ExtremumRule::Triangle);
+    let focal = draw.displacement.focal;
     let (mut agree, mut all, mut backs) = (0, 0, 0);
     for index in 0..draw.triangles.len() {
         let Assembled::Kept(base) = draw.assemble(index) else { panic!("base triangle {index} is gone") };
@@ -128,8 +130,12 @@ fn rules_tell_front_from_back() {
         for (corner, data) in corners.iter().zip(&base.data) {
             let (all_lanes, towards) = (draw.lanes.widen(data), (scene.camera.eye - corner.position).normalize());
             let facing = towards.dot(corner.normal.normalize());
-            let away = faces_away(&draw.pixel, &all_lanes);
+            let away = facing::of_vertex(&all_lanes, focal);
             assert!(away == (facing <= 0.0) || facing.abs() < 1e-4, "{facing}");
+            // To the left and above by up to 1/16 pixel: a sixteenth of 1 / f.
+            let lanes = std::array::from_fn(|k| all_lanes[lane::NORMAL + k]);
+            let cosine = facing::exact(lanes, [all_lanes[lane::X], all_lanes[lane::Y]], focal);
+            assert!(away == (cosine >= 0.0) || cosine.abs() < 0.15 * 65536.0 / f64::from(focal), "{cosine}");
             all += 1;
             agree += u32::from(away == is_back);
         }
@@ -143,9 +149,9 @@ fn rules_tell_front_from_back() {
     // S is exactly 0 for a normal without length, and counts as away.
     let mut vertex = [0; MAX_COMPONENTS];
     (vertex[lane::X], vertex[lane::C]) = (1 << 20, 1 << 20);
-    assert!(faces_away(&draw.pixel, &vertex));
+    assert!(facing::of_vertex(&vertex, focal));
     vertex[lane::NORMAL + 2] = -1;
-    assert!(!faces_away(&draw.pixel, &vertex));
+    assert!(!facing::of_vertex(&vertex, focal));
 }
 
 /// What the hardware does comes out of the general way, too, triangle by triangle; and other rules change heights.
@@ -174,10 +180,11 @@ fn rules_of_the_hardware_are_golden() {
     };
     let hardware = collect(&draw, false);
     assert!(hardware.len() > 1000 && hardware == collect(&draw, true));
-    for rules in RULES.into_iter().filter(|rules| *rules != Rules::HARDWARE) {
+    for rules in RULES.into_iter().filter(|rules| *rules != Rules::DEFAULT) {
         draw.rules = rules;
         let other = collect(&draw, false);
         assert!(other.len() == hardware.len() && other != hardware, "{rules}");
+        assert!(rules.refusal().is_some() || other == collect(&draw, true), "{rules}");
     }
 }
 
@@ -190,7 +197,7 @@ fn rules_are_read_from_a_scene_and_planning_refuses_those_of_golden() {
         );
         parse(&text, "scene.toml", std::path::Path::new(""))
     };
-    assert_eq!(scene("").unwrap().remesh.rules, Rules::HARDWARE);
+    assert_eq!(scene("").unwrap().remesh.rules, Rules::DEFAULT);
     for rules in RULES {
         let (footprint, extremum) = (rules.footprint.name(), rules.extremum.name());
         let read = scene(&format!("footprint = \"{footprint}\"\nextremum = \"{extremum}\"")).unwrap();
@@ -205,7 +212,10 @@ fn rules_are_read_from_a_scene_and_planning_refuses_those_of_golden() {
         refusal("footprint = \"exact\""),
         format!("`footprint` is \"exact\", {golden_alone}; \"density\" is expected")
     );
-    assert_eq!(refusal("extremum = \"min\""), format!("`extremum` is \"min\", {golden_alone}; \"max\" is expected"));
+    assert_eq!(
+        refusal("extremum = \"triangle\""),
+        format!("`extremum` is \"triangle\", {golden_alone}; \"vertex\" is expected")
+    );
     let unknown = scene("extremum = \"most\"").unwrap_err().to_string();
     assert_eq!(unknown, "scene.toml:5: unknown variant `most`, expected one of `max`, `min`, `vertex`, `triangle`");
 }

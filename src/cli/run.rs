@@ -11,6 +11,7 @@ use relief_models::mesh::Progress;
 use relief_models::scene;
 use relief_testbench::binding::find;
 use relief_testbench::check::{self, emission};
+use relief_testbench::cosim::Stalls;
 use relief_testbench::frame::{
     CulledReport, DesignError, DesignReport, DrawReport, Prepared, Report, expect_drawable, prepare, render,
     render_by_design, width_set,
@@ -41,6 +42,18 @@ pub struct Arguments {
     /// What the hardware runs in
     #[arg(long, value_enum, default_value_t = Engine::Rust)]
     engine: Engine,
+    /// Cycles of a hundred, at random, in which each stream of the draw is held up: what leaves stays the same
+    #[arg(long, value_name = "PERCENT", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=90))]
+    stalls: u8,
+    /// Which of all patterns of stalls
+    #[arg(long, default_value_t = 1)]
+    seed: u32,
+}
+
+impl Arguments {
+    const fn stalls(&self) -> Stalls {
+        Stalls { percent: self.stalls, seed: self.seed }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -98,6 +111,7 @@ pub fn run(arguments: &Arguments) -> Result {
 
     let meter = Meter::new();
     let mut pipeline = Pipeline::new(set);
+    pipeline.stall(arguments.stalls());
     let folder = tempfile::tempdir()?;
     if engine == Engine::Verilator {
         meter.phase("building", 0);
@@ -132,6 +146,7 @@ pub fn run(arguments: &Arguments) -> Result {
     rendered.report.scene = arguments.scene.display().to_string();
     rendered.report.engine = if engine == Engine::Verilator { "verilator" } else { "rust" };
     rendered.report.width_set = set.name;
+    rendered.report.stalls = arguments.stalls;
     rendered.report.warnings = warnings;
     rendered.report.seconds = begun.elapsed().as_secs_f64();
     let json = serde_json::to_string_pretty(&rendered.report)? + "\n";
@@ -158,7 +173,7 @@ fn design(
     let _made = MadeFolder::open(out)?;
     let files = [OutputFile::open(&out.join("frame.png"))?, OutputFile::open(&out.join("report.json"))?];
     let meter = Meter::new();
-    let rendered = render_by_design(prepared, set, &meter);
+    let rendered = render_by_design(prepared, set, arguments.stalls(), &meter);
     meter.finish();
     let (frame, mut report) = match rendered {
         Ok(rendered) => rendered,
@@ -214,6 +229,9 @@ fn design_table(report: &DesignReport, seconds: f64, out: &Path) -> String {
     }
     row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
     row("width set", report.width_set.to_owned());
+    if report.stalls > 0 {
+        row("stalls", format!("{} % of the cycles of each stream", report.stalls));
+    }
     row("hardware", format!("displacement_pipeline in Verilator, {} beats equal golden", report.beats));
     row("golden models", "levels of the maps, raster".to_owned());
     row("mismatches", report.mismatches.to_string());
@@ -262,6 +280,9 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
     row("cycles to load them", counts.load_cycles.to_string());
     row("pixels", format!("{} ({} fragments)", report.pixels, report.fragments));
     row("width set", report.width_set.to_owned());
+    if report.stalls > 0 {
+        row("stalls", format!("{} % of the cycles of each stream", report.stalls));
+    }
     for block in &report.hardware {
         let behind = match block.followed_cycles {
             0 => String::new(),

@@ -127,7 +127,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 29] = [
+pub const CONTRACTS: [Contract; 30] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -267,6 +267,12 @@ pub const CONTRACTS: [Contract; 29] = [
         name: "filter_level",
         reach: 72,
         faults: &[fault(Property::Room, "flow_64_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "facing",
+        reach: 19,
+        faults: &[fault(Property::Room, "flow_11_of_1", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {

@@ -2,11 +2,11 @@
 //! A design with one input and one output stream, compiled by Verilator together with its driver.
 //!
 //! Through the [pipe of cycles](super::verilator) a driver that waits for `in_ready` asks once a cycle. Where all that is
-//! played is known beforehand and every output is taken at once, the driver can stand beside the design instead: beats go
-//! in, beats come out, and only these travel. The cycles are those of the same driver on this side.
+//! played is known beforehand, the driver can stand beside the design instead: beats go in, beats come out, and only these
+//! travel. The cycles are those of the same driver on this side.
 
 use super::verilator::{Verilator, receive_all, send};
-use super::{CosimError, Cycles, Design, Direction, io_error, program};
+use super::{CosimError, Cycles, Design, Direction, Stalls, io_error, program};
 use std::io::Read;
 use std::path::PathBuf;
 use std::process::{Command, Stdio};
@@ -85,17 +85,19 @@ impl Stream {
     }
 
     /// Plays beats, a row of input words for each, from the reset on until nothing has come for `drain` cycles behind the
-    /// last one. `reset`, `in_valid` and `out_ready` in them do not matter.
+    /// last one, which is more than a stall takes. `reset`, `in_valid` and `out_ready` in them do not matter.
     ///
     /// # Errors
     /// A beat is not taken, or the simulator fails.
-    pub fn run(&self, beats: &Cycles, drain: u64) -> Result<Streamed, CosimError> {
+    pub fn run(&self, beats: &Cycles, drain: u64, stalls: Stalls) -> Result<Streamed, CosimError> {
         self.design.check_width(beats.width())?;
         let top = &self.design.top;
         let messages = tempfile::tempfile().map_err(io_error("making a temporary file"))?;
         let copy = messages.try_clone().map_err(io_error("sharing a temporary file"))?;
         let mut command = Command::new(&self.executable);
-        command.args([PATIENCE.to_string(), drain.to_string()]).current_dir(self.design.folder()?);
+        let Stalls { percent, seed } = stalls;
+        let limits = [PATIENCE, drain, percent.into(), seed.into()];
+        command.args(limits.map(|limit| limit.to_string())).current_dir(self.design.folder()?);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(copy);
         let mut child = command.spawn().map_err(io_error(format!("starting the simulator of `{top}`")))?;
         let (Some(mut stdin), Some(mut stdout)) = (child.stdin.take(), child.stdout.take()) else {
@@ -161,7 +163,7 @@ mod tests {
             let emitted = emitted(block, set, None)?;
             let stream = Stream::build(&emitted.design, &Verilator::new())?;
             let beats: Vec<_> = block.random(set, 5).take(count).collect();
-            let streamed = stream.run(&stream.rows(beats.iter().map(Vec::as_slice)), 300)?;
+            let streamed = stream.run(&stream.rows(beats.iter().map(Vec::as_slice)), 300, Stalls::default())?;
             let (mut model, mut expected) = (block.model(set), Vec::new());
             beats.iter().for_each(|beat| model.accept(beat, &mut expected));
             assert!(expected.len() > count / 4 && streamed.beats.len() == expected.len(), "{}", block.name());
@@ -179,6 +181,11 @@ mod tests {
             });
             played.map_err(|mismatch| mismatch.to_string())?;
             assert!(streamed.iter().map(|(cycle, _)| cycle).eq(sent), "{}: other cycles", block.name());
+            // Held up, it sends the same later.
+            let rows = stream.rows(block.random(set, 5).take(count).collect::<Vec<_>>().iter().map(Vec::as_slice));
+            let held = stream.run(&rows, 300, Stalls { percent: 40, seed: 3 })?;
+            assert!(held.iter().map(|(_, words)| words).eq(streamed.iter().map(|(_, words)| words)));
+            assert!(held.cycles > streamed.cycles, "{}: {} cycles", block.name(), held.cycles);
         }
         Ok(())
     }

@@ -11,6 +11,7 @@ use relief_models::displacement_pipeline::{Command, commands};
 use relief_models::draw::{Assembled, CameraView, Draw, DrawVertex, MapInfo};
 use relief_models::light::{Light, Material};
 use relief_models::mip_build::{Centring, Extremum, Pyramid, Wrap, golden, max_levels};
+use relief_models::rules::ExtremumRule;
 use std::collections::VecDeque;
 
 /// Triangles of a draw, about, at most.
@@ -22,7 +23,8 @@ pub(super) struct Draws {
     set: WidthSet,
     random: Random,
     queue: VecDeque<Beat>,
-    map: Option<Pyramid>,
+    /// Maxima and minima.
+    map: Option<[Pyramid; 2]>,
 }
 
 type Mesh = (Vec<DrawVertex>, Vec<[u32; 3]>);
@@ -47,7 +49,7 @@ impl Draws {
         if direction.length() < 0.1 { DVec3::Y } else { direction }
     }
 
-    fn pyramid(&mut self) -> Pyramid {
+    fn pyramids(&mut self) -> [Pyramid; 2] {
         let side = |random: &mut Random| 4 + random.below(13) as usize;
         let (width, height) = (side(&mut self.random), side(&mut self.random));
         let mut wrap = [Wrap::Clamp; 2];
@@ -59,7 +61,9 @@ impl Draws {
         let samples: Vec<u16> = (0..width * height).map(|_| random_sample(&mut self.random)).collect();
         let most = max_levels(width, height, Centring::Node, wrap).min(3) as u64;
         let levels = 1 + self.random.below(most) as usize;
-        golden(width, height, &samples, Centring::Node, wrap, Extremum::Max, levels).expect("a map that can be halved")
+        [Extremum::Max, Extremum::Min].map(|extremum| {
+            golden(width, height, &samples, Centring::Node, wrap, extremum, levels).expect("a map that can be halved")
+        })
     }
 
     fn camera(&mut self) -> CameraView {
@@ -220,19 +224,23 @@ impl Draws {
     fn fill(&mut self) {
         let kept = self.map.take().filter(|_| self.random.chance(50));
         let is_new = kept.is_none();
-        let pyramid = match kept {
-            Some(pyramid) => pyramid,
-            None => self.pyramid(),
+        let pyramids = match kept {
+            Some(pyramids) => pyramids,
+            None => self.pyramids(),
         };
+        let pyramid = &pyramids[0];
         let map = MapInfo {
             width: pyramid.levels[0].width,
             height: pyramid.levels[0].height,
             repeat: pyramid.wrap.map(|wrap| wrap == Wrap::Repeat),
             levels: pyramid.levels.len(),
         };
-        let (draw, viewport) = self.draw(&map);
+        let (mut draw, viewport) = self.draw(&map);
+        // With a map of one pyramid from the draw before, minima are what it has.
+        let rules = [ExtremumRule::Max, ExtremumRule::Min, ExtremumRule::Vertex, ExtremumRule::Vertex];
+        draw.rules.extremum = rules[self.random.below(4) as usize];
         let (light, skips) = (self.light(&draw), self.random.chance(50));
-        for command in commands(&draw, &pyramid, &light, viewport, skips) {
+        for command in commands(&draw, &pyramids, &light, viewport, skips) {
             if is_new || !matches!(command, Command::Size { .. } | Command::Load { .. }) {
                 self.push(&command);
             }
@@ -247,7 +255,7 @@ impl Draws {
         // One of those that are always 0.
         let counter = [20, 23, 31, 127][self.random.below(4) as usize];
         self.push(&Command::Report { counter });
-        self.map = Some(pyramid);
+        self.map = Some(pyramids);
     }
 }
 

@@ -6,14 +6,15 @@
 //! hardware  displacement_pipeline, emitted -> lit triangles, counters (golden: levels of the maps, rasteriser)
 //! ```
 //!
-//! No block runs in Rust. The sink takes every triangle at once, so the counters of time are those of a design that is not
-//! held up from behind.
+//! No block runs in Rust. Without stalls the sink takes every triangle at once, so the counters of time are those of a design
+//! that is not held up from behind. With stalls, at random, every stream is held up that can be: at both ends, and
+//! between the blocks by gates in the emitted text.
 
 use super::prepare::{Prepared, PreparedObject};
 use super::{corner, lights_of};
 use crate::binding::{Expected, expect_offered};
 use crate::check::{CheckError, emitted};
-use crate::cosim::{CosimError, Stream, Streamed, Verilator};
+use crate::cosim::{CosimError, Link, Stalls, Stream, Streamed, Verilator};
 use crate::displacement_pipeline::{
     DisplacementPipelineBinding, command_beat, expected_of, machine, report_of, triangle_of,
 };
@@ -27,6 +28,27 @@ use serde::Serialize;
 
 /// Cycles without an output beat after which nothing more comes: all has left before the last counter is asked for.
 const DRAIN: u64 = 4096;
+
+/// The streams between blocks that can be held up. Behind `vertices` and `shading` take a beat nothing stands on its way, as
+/// there is a place for its result.
+pub const LINKS: [Link; 8] = {
+    const fn link(module: &'static str, instance: &'static str, ports: [&'static str; 2]) -> Link {
+        Link { module, instance, ports }
+    }
+    const TOP: &str = "relief_displacement_pipeline";
+    const ASSEMBLY: &str = "relief_assembly";
+    const OUT: [&str; 2] = ["out_valid", "out_ready"];
+    [
+        link(ASSEMBLY, "cull", OUT),
+        link(ASSEMBLY, "clip", OUT),
+        link(TOP, "assembly", ["piece_valid", "piece_ready"]),
+        link(TOP, "remesher", OUT),
+        link(TOP, "passer", OUT),
+        link(TOP, "vertices", OUT),
+        link(TOP, "strip_unit", OUT),
+        link(TOP, "shading", OUT),
+    ]
+};
 
 /// Why a scene was not drawn by the design.
 #[derive(Debug, thiserror::Error)]
@@ -72,6 +94,8 @@ pub struct DesignReport {
     pub simulation_seconds: f64,
     /// What was printed as warnings.
     pub warnings: Vec<String>,
+    /// Cycles of a hundred in which each stream was held up.
+    pub stalls: u8,
     /// Beats that the design took.
     pub commands: u64,
     /// Beats that it sent, each compared with the golden machine.
@@ -212,12 +236,12 @@ pub fn commands_of(prepared: &Prepared<'_>) -> Result<Vec<Command>, InputError> 
     let scene = prepared.scene;
     let mut all = Vec::new();
     for (at, PreparedObject { object, draw, .. }) in prepared.objects.iter().enumerate() {
-        let pyramid =
-            scene.pyramid(object).map_err(|cause| scene.source.error(Entry::Object(at), cause.to_string()))?;
+        let pyramids =
+            scene.pyramids(object).map_err(|cause| scene.source.error(Entry::Object(at), cause.to_string()))?;
         // A scene without a light has one that is dark.
         let dark = Light { direction: [0; 3], colour: [0; 3] };
         let light = lights_of(scene, draw).first().copied().unwrap_or(dark);
-        all.extend(commands(draw, &pyramid, &light, scene.camera.viewport, true));
+        all.extend(commands(draw, &pyramids, &light, scene.camera.viewport, true));
     }
     Ok(all)
 }
@@ -229,13 +253,17 @@ pub fn commands_of(prepared: &Prepared<'_>) -> Result<Vec<Command>, InputError> 
 pub fn render_by_design(
     prepared: &Prepared<'_>,
     set: &'static WidthSet,
+    stalls: Stalls,
     progress: &dyn Progress,
 ) -> Result<(Frame, DesignReport), DesignError> {
     let scene = prepared.scene;
     expect_drawable(scene, set)?;
     let commands = commands_of(prepared)?;
     progress.phase("building", 0);
-    let emitted = emitted(&DisplacementPipelineBinding, set, None)?;
+    let mut emitted = emitted(&DisplacementPipelineBinding, set, None)?;
+    if stalls.percent > 0 {
+        emitted.design.stall(&LINKS, stalls)?;
+    }
     let stream = Stream::build(&emitted.design, &Verilator::new())?;
     progress.phase("drawing", 0);
     let beats: Vec<_> = commands.iter().map(command_beat).collect();
@@ -243,7 +271,7 @@ pub fn render_by_design(
     let begun = std::time::Instant::now();
     // Side by side: neither waits for the other.
     let (streamed, simulated, expected) = std::thread::scope(|scope| {
-        let simulation = scope.spawn(|| (stream.run(&rows, DRAIN), begun.elapsed()));
+        let simulation = scope.spawn(|| (stream.run(&rows, DRAIN, stalls), begun.elapsed()));
         let expected = expected(set, &commands);
         let (streamed, simulated) = simulation.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         (streamed, simulated, expected)
@@ -257,6 +285,7 @@ pub fn render_by_design(
         engine: "design",
         width_set: set.name,
         simulation_seconds: simulated.as_secs_f64(),
+        stalls: stalls.percent,
         commands: commands.len() as u64,
         beats: streamed.beats.len() as u64,
         cycles: streamed.cycles,

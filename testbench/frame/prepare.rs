@@ -44,10 +44,16 @@ pub fn width_set(scene: &Scene) -> &'static WidthSet {
     sets.sort_by_key(|set| set.texel_bits);
     let holds = |set: &WidthSet| {
         let limit = limit_of(set);
-        scene
-            .objects
-            .iter()
-            .all(|object| limit.check([object.map.width, object.map.height], object.wrap, scene.remesh.levels).is_ok())
+        scene.objects.iter().all(|object| {
+            limit
+                .check(
+                    [object.map.width, object.map.height],
+                    object.wrap,
+                    scene.remesh.levels,
+                    scene.remesh.rules.reads_both(),
+                )
+                .is_ok()
+        })
     };
     sets.iter().find(|set| holds(set)).or(sets.last()).copied().unwrap_or(default)
 }
@@ -73,7 +79,7 @@ pub fn prepare<'a>(scene: &'a Scene, set: &WidthSet) -> Result<Prepared<'a>, Inp
         let name = &object.map_name;
         let (width, height) = (object.map.width, object.map.height);
         limit_of(set)
-            .check([width, height], object.wrap, scene.remesh.levels)
+            .check([width, height], object.wrap, scene.remesh.levels, scene.remesh.rules.reads_both())
             .map_err(|problem| refuse(format!("the map {name} of {width} x {height} samples {problem}")))?;
         let draw = scene.draw(object, &view, &format(set)).map_err(|cause| match cause {
             DrawError::Focal { .. } | DrawError::Extent { .. } => scene.source.error(Entry::Camera, cause),
@@ -270,10 +276,10 @@ mod tests {
         assert_eq!(error, expected);
     }
 
-    /// The hardware has one footprint and maxima.
+    /// The hardware has one footprint, and no choice by base triangle.
     #[test]
     fn prepare_refuses_rules_that_the_hardware_does_not_have() {
-        for (rule, expected) in [("footprint = \"exact\"", "density"), ("extremum = \"vertex\"", "max")] {
+        for (rule, expected) in [("footprint = \"exact\"", "density"), ("extremum = \"triangle\"", "vertex")] {
             let text = SCENE.replace("cell_px = 4", &format!("cell_px = 4\n{rule}"));
             let scene = parse(&text, "scene.toml", Path::new("")).unwrap();
             let error = prepare(&scene, &WIDTH_SETS[0]).err().unwrap().to_string();
