@@ -641,7 +641,7 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
             "strip_unit" => 54,
             "remesher" => 110,
             "mip_build" => 8,
-            "mip_fetch" => 16,
+            "mip_fetch" => 20,
             "bisector" => 110,
             "reciprocal" => 23,
             "rsqrt" => 23,
