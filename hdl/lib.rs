@@ -11,6 +11,7 @@ pub mod displacement_pipeline;
 pub mod face_normal;
 pub mod facing;
 pub mod filter_level;
+pub mod gradient_normal;
 pub mod light;
 pub mod mip_build;
 pub mod mip_fetch;

@@ -115,21 +115,32 @@ impl Filter {
 
     /// The value at (u, v) texels of level 0, UQ16.8. Coordinates have [`FRACTION_BITS`]; on an axis that repeats they count
     /// modulo the period.
-    pub fn at(self, pyramid: &Pyramid, level: usize, [u, v]: [u32; 2]) -> u32 {
+    pub fn at(self, pyramid: &Pyramid, level: usize, place: [u32; 2]) -> u32 {
+        let [u, v] = self.on_level(pyramid, level, place);
+        mip_fetch::fetch(pyramid, level, u, v, mip_fetch::Filter::Bilinear)
+    }
+
+    /// The texels round (u, v) and their weights, as [`mip_fetch::patch`]; the place as in [`at`](Self::at).
+    pub fn patch(self, pyramid: &Pyramid, level: usize, place: [u32; 2]) -> ([u16; 4], [u32; 2]) {
+        let [u, v] = self.on_level(pyramid, level, place);
+        mip_fetch::patch(pyramid, level, u, v)
+    }
+
+    /// Where the level is read for (u, v).
+    fn on_level(self, pyramid: &Pyramid, level: usize, [u, v]: [u32; 2]) -> [u32; 2] {
         // The middle of cell 0 lies (2^L - 1) / 2 texels beyond texel 0.
         let middle = match self.centring() {
             Centring::Node => 0,
             Centring::Cell => ((1 << level) - 1) << (FRACTION_BITS - 1),
         };
         let sides = [pyramid.levels[0].width, pyramid.levels[0].height];
-        let [u, v] = [(u, 0), (v, 1)].map(|(coordinate, axis)| match pyramid.wrap[axis] {
+        [(u, 0), (v, 1)].map(|(coordinate, axis)| match pyramid.wrap[axis] {
             Wrap::Clamp => coordinate.saturating_sub(middle),
             Wrap::Repeat => {
                 let period = (sides[axis] as u64) << FRACTION_BITS;
                 ((u64::from(coordinate) + period - u64::from(middle) % period) % period) as u32
             }
-        });
-        mip_fetch::fetch(pyramid, level, u, v, mip_fetch::Filter::Bilinear)
+        })
     }
 }
 

@@ -21,6 +21,7 @@ pub mod failures;
 pub mod filter_level;
 pub mod filters;
 pub mod fixed;
+pub mod gradient_normal;
 pub mod lanes;
 pub mod light;
 pub mod map;

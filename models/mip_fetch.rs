@@ -193,8 +193,8 @@ pub fn fetch(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) ->
     fetch_checked(pyramid, level, u, v, filter).value
 }
 
-/// The value at (u, v) of a level, and whether it is an error.
-pub fn fetch_checked(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) -> Fetched {
+/// The four texels t00, t10, t01, t11 round (u, v) of a level, and their taps.
+fn gather(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) -> ([u16; 4], [Taps; 2]) {
     let level = level.min(pyramid.levels.len() - 1);
     let samples = &pyramid.levels[level];
     let x = taps(u, level, samples.width, pyramid.wrap[0], filter);
@@ -202,7 +202,19 @@ pub fn fetch_checked(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Fi
     let texel = |i, j| samples.at(i, j);
     let texels =
         [texel(x.first, y.first), texel(x.second, y.first), texel(x.first, y.second), texel(x.second, y.second)];
+    (texels, [x, y])
+}
+
+/// The value at (u, v) of a level, and whether it is an error.
+pub fn fetch_checked(pyramid: &Pyramid, level: usize, u: u32, v: u32, filter: Filter) -> Fetched {
+    let (texels, [x, y]) = gather(pyramid, level, u, v, filter);
     Fetched { value: blend(texels, x.weight, y.weight), error: x.error || y.error }
+}
+
+/// What lies round (u, v) of a level: the texels t00, t10, t01, t11, and the weights of the second column and row, UQ0.12.
+pub fn patch(pyramid: &Pyramid, level: usize, u: u32, v: u32) -> ([u16; 4], [u32; 2]) {
+    let (texels, taps) = gather(pyramid, level, u, v, Filter::Bilinear);
+    (texels, taps.map(|taps| taps.weight as u32))
 }
 
 /// Exact reference: the value at (u, v) texels of level 0, clamped, with real weights.
