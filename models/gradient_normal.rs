@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Normal of a displaced surface at a vertex, from the slopes of the patch between four texels.
 //!
-//! Where the base is flat, p + d n has the normal (Blinn 1978, "Simulation of wrinkled surfaces"; of a filter level: Gumhold &
-//! Huettner 1999, section 4)
+//! Where the base is flat, p + d n has the normal (Blinn 1978, "Simulation of wrinkled surfaces"; Gumhold & Huettner 1999, section 2.1,
+//! leave it to a unit for bump mapping, which this is one of)
 //!
 //! ```text
 //! N ~ n - d_u grad u - d_v grad v

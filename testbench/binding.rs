@@ -83,6 +83,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::displace::DisplaceBinding,
     &crate::power::PowerBinding,
     &crate::face_normal::FaceNormalBinding,
+    &crate::gradient_normal::GradientNormalBinding,
     &crate::light::LightBinding,
     &crate::vertex_transform::VertexTransformBinding,
     &crate::cull::CullBinding,

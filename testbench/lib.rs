@@ -32,6 +32,7 @@ pub mod face_normal;
 pub mod facing;
 pub mod filter_level;
 pub mod frame;
+pub mod gradient_normal;
 pub mod light;
 pub mod method;
 pub mod mip_build;

@@ -32,6 +32,7 @@ const NAMES: [&str; 23] = [
     "displace",
     "power",
     "face_normal",
+    "gradient_normal",
     "light",
     "vertex_transform",
     "cull",
@@ -569,6 +570,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("displace", "1000"),
         ("power", "1000"),
         ("face_normal", "1000"),
+        ("gradient_normal", "1000"),
         ("light", "1000"),
         ("cull", "500"),
     ];
@@ -650,6 +652,7 @@ fn cli_emitted_blocks_synthesize_to_what_they_should() -> Outcome {
             "displace" => 350,
             "power" => 15,
             "face_normal" => 280,
+            "gradient_normal" => 240,
             "light" => 1050,
             "vertex_transform" => 70,
             "clip" => 16,

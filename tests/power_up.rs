@@ -18,7 +18,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn vectors(block: &str) -> &'static str {
     match block {
         "remesher" => "60",
-        "displace" | "face_normal" | "light" | "vertex_transform" => "120",
+        "displace" | "face_normal" | "gradient_normal" | "light" | "vertex_transform" => "120",
         "clip" => "30",
         _ => "400",
     }

@@ -294,6 +294,12 @@ pub const CONTRACTS: [Contract; 30] = [
         ..PIPELINE
     },
     Contract {
+        name: "gradient_normal",
+        reach: 80,
+        faults: &[fault(Property::Room, "flow_72_of_54", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
         name: "light",
         // Its first stages stand before the flow.
         text: concat!(
