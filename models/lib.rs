@@ -29,6 +29,7 @@ pub mod measure;
 pub mod mesh;
 pub mod mip_build;
 pub mod mip_fetch;
+pub mod normals;
 pub mod perspective_correct;
 pub mod plan;
 pub mod power;

@@ -18,6 +18,7 @@ pub mod check_mesh;
 pub mod emit;
 mod engine;
 pub mod measure;
+pub mod normals;
 mod output;
 pub mod plan;
 pub mod prove;
