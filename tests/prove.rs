@@ -37,7 +37,7 @@ fn is_quick() -> bool {
 }
 
 /// What is left to `relief prove`, which takes minutes for each (docs/prove.md).
-const LONG: [&str; 5] = ["mip_build", "sat_average", "bisector", "face_normal", "light"];
+const LONG: [&str; 6] = ["mip_build", "sat_average", "bisector", "face_normal", "gradient_normal", "light"];
 
 /// The solver takes a minute for this one alone.
 fn is_long(contract: &Contract, property: Property) -> bool {
