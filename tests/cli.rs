@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 23] = [
+const NAMES: [&str; 24] = [
     "vertex_adder",
     "strip_unit",
     "remesher",

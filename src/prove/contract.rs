@@ -127,7 +127,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 30] = [
+pub const CONTRACTS: [Contract; 31] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
