@@ -54,7 +54,7 @@ impl Constants {
     /// The constants nearest to a displacement of `steepness`, off by 2^-17 of it; what is less than 2^-32 has fewer bits.
     /// `None` from 2 on: every slope would be vertical.
     pub fn new(steepness: f64) -> Option<Self> {
-        if !(steepness.abs() < 2.0 - 1e-5) {
+        if steepness.is_nan() || steepness.abs() >= 2.0 - 1e-5 {
             return None;
         }
         let exponent = steepness.abs().max(f64::MIN_POSITIVE).log2().floor();
