@@ -82,6 +82,11 @@ pub(crate) fn displaced_vertex(draw: &Draw, pyramids: Pyramids<'_>, vertex: &Ver
 
 /// The height that a vertex asks for, UQ16.8.
 fn fetch(pyramids: Pyramids<'_>, request: &Request) -> u32 {
-    let pyramid = if request.minima { pyramids.minima() } else { pyramids.maxima };
-    mip_fetch::fetch(pyramid, request.level as usize, request.u, request.v, Filter::Bilinear)
+    mip_fetch::fetch(
+        pyramids.of(request.minima, request.level),
+        request.level as usize,
+        request.u,
+        request.v,
+        Filter::Bilinear,
+    )
 }

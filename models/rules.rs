@@ -117,7 +117,7 @@ impl Rules {
     pub fn reads(self, pyramids: Pyramids<'_>) -> Pyramids<'_> {
         match self.extremum {
             ExtremumRule::Max => pyramids.maxima.into(),
-            ExtremumRule::Min => pyramids.minima().into(),
+            ExtremumRule::Min => pyramids.minima.unwrap_or(pyramids.maxima).into(),
             ExtremumRule::Vertex | ExtremumRule::Triangle => pyramids,
         }
     }
@@ -148,9 +148,9 @@ pub struct Pyramids<'a> {
 }
 
 impl<'a> Pyramids<'a> {
-    /// The levels of minima, or those that stand for both.
-    pub fn minima(&self) -> &'a Pyramid {
-        self.minima.unwrap_or(self.maxima)
+    /// What a vertex reads at a level. Level 0 is the map, one for both; where its pole rows have one value, that of the maxima.
+    pub fn of(&self, minima: bool, level: u32) -> &'a Pyramid {
+        self.minima.filter(|_| minima && level > 0).unwrap_or(self.maxima)
     }
 }
 
@@ -248,7 +248,7 @@ impl<'a> Ruled<'a> {
     /// The vertex at `place`, displaced by its height.
     pub fn displaced(&self, pyramids: Pyramids<'_>, vertex: &Vertex, place: Place) -> Vertex {
         let Request { level, u, v, .. } = self.request(vertex, place);
-        let pyramid = if self.reads_minima(vertex) { pyramids.minima() } else { pyramids.maxima };
+        let pyramid = self.draw.rules.reads(pyramids).of(self.reads_minima(vertex), level);
         self.draw.displace(vertex, mip_fetch::fetch(pyramid, level as usize, u, v, Filter::Bilinear))
     }
 

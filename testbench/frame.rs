@@ -76,6 +76,8 @@ pub struct Report {
     pub width_set: &'static str,
     /// Cycles of a hundred in which each stream of a draw was held up.
     pub stalls: u8,
+    /// Which of all patterns of them.
+    pub seed: u32,
     /// Seconds from the reading of the scene to this report.
     pub seconds: f64,
     /// What was printed as warnings.

@@ -276,8 +276,8 @@ impl Pipeline {
         self.modules.iter().map(Replay::followed).collect()
     }
 
-    /// Builds the levels of a map, of maxima and of minima: the map itself, its pole rows with the greatest sample as the
-    /// builder sends it, and what stands above.
+    /// Builds the levels of a map, of maxima and of minima: the map itself, its pole rows as the builder sends them, and what
+    /// stands above.
     ///
     /// # Errors
     /// The block is at fault.
@@ -310,7 +310,7 @@ impl Pipeline {
             unit.finish(&mut sent)?;
             if let Some(words) = sent {
                 let [level, i, j] = [0, 1, 2].map(|at| words[at] as usize);
-                for (pyramid, word) in [(&mut pyramid, 3), (&mut minima, if level == 0 { 3 } else { 4 })] {
+                for (pyramid, word) in [(&mut pyramid, 3), (&mut minima, 4)] {
                     let level = &mut pyramid.levels[level];
                     level.samples[j * level.width + i] = words[word] as u16;
                 }

@@ -106,7 +106,6 @@ impl Measure<'_> {
     fn vertex(&self, vertex: &Vertex, lanes: &[f64; MAX_COMPONENTS], out: &mut Deviation) {
         let Self { draw, pyramids, viewport, .. } = self;
         let request = draw.request(vertex);
-        let pyramid = if request.minima { pyramids.minima() } else { pyramids.maxima };
         out.sent += 1;
         out.highest = out.highest.max(request.level);
 
@@ -115,7 +114,7 @@ impl Measure<'_> {
         let level = |footprint: f64| {
             // UQ16.16, saturating.
             let fixed = (footprint * 65536.0).min(f64::from(u32::MAX)) as u32;
-            filter_level::thresholds(fixed).saturating_sub(1).min(pyramid.levels.len() as u32 - 1)
+            filter_level::thresholds(fixed).saturating_sub(1).min(pyramids.maxima.levels.len() as u32 - 1)
         };
         let (low, high) = (level(footprint / NEAR_A_THRESHOLD), level(footprint * NEAR_A_THRESHOLD));
         let right = (low..=high).contains(&request.level);
@@ -127,6 +126,7 @@ impl Measure<'_> {
             let size = f64::from(axis.size);
             if axis.repeat { at.rem_euclid(size) } else { at.min(size - 1.0) }
         };
+        let pyramid = pyramids.of(request.minima, level);
         let q = mip_fetch::exact(pyramid, level as usize, texel(0), texel(1));
         let exact = displace::exact(&draw.displacement, lanes, q);
         let moved = displaced_vertex(draw, *pyramids, vertex);

@@ -62,15 +62,12 @@ impl Scene {
         self.pyramid_of(object, Extremum::Max)
     }
 
-    /// An object's levels, the greatest and the least, for [rules](crate::rules) that read minima. Level 0 is one for both,
-    /// pole rows with their greatest sample.
+    /// An object's levels, the greatest and the least, for [rules](crate::rules) that read minima.
     ///
     /// # Errors
     /// As of [`pyramid`](Self::pyramid).
     pub fn pyramids(&self, object: &Object) -> Result<[Pyramid; 2], MipError> {
-        let (maxima, mut minima) = (self.pyramid(object)?, self.pyramid_of(object, Extremum::Min)?);
-        minima.levels[0].clone_from(&maxima.levels[0]);
-        Ok([maxima, minima])
+        Ok([self.pyramid(object)?, self.pyramid_of(object, Extremum::Min)?])
     }
 
     fn pyramid_of(&self, object: &Object, extremum: Extremum) -> Result<Pyramid, MipError> {

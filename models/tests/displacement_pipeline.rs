@@ -72,10 +72,8 @@ const MAP: MapInfo = MapInfo { width: 16, height: 9, repeat: [true, false], leve
 fn pyramids() -> [Pyramid; 2] {
     let samples: Vec<u16> = (0..16 * 9).map(|k: u32| (k * 7919 % 65_536) as u16).collect();
     let wrap = [Wrap::Repeat, Wrap::Clamp];
-    let [maxima, mut minima] = [Extremum::Max, Extremum::Min]
-        .map(|extremum| mip_build::golden_with_poles(16, 9, &samples, Centring::Node, wrap, extremum, 3).unwrap());
-    minima.levels[0] = maxima.levels[0].clone();
-    [maxima, minima]
+    [Extremum::Max, Extremum::Min]
+        .map(|extremum| mip_build::golden_with_poles(16, 9, &samples, Centring::Node, wrap, extremum, 3).unwrap())
 }
 
 fn light(draw: &Draw) -> Light {

@@ -5,6 +5,7 @@ use image::{DynamicImage, ImageFormat};
 use proptest::prelude::*;
 use relief_models::map::{HeightMap, Limit, Procedural, Wrap, bank_words, levels, read, read_from};
 use relief_models::mip_build::{Centring, Extremum, golden};
+use relief_models::rules::Pyramids;
 
 fn png(image: impl Into<DynamicImage>) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
@@ -154,8 +155,10 @@ fn map_levels_and_words() {
     assert_eq!(levels([2, 2], [Clamp, Clamp]), [[2, 2]]);
     for (size, wrap) in [([403, 344], [Clamp, Clamp]), ([512, 257], [Repeat, Clamp]), ([7, 1], [Clamp, Clamp])] {
         let (samples, count) = (vec![0; size[0] * size[1]], levels(size, wrap).len());
-        let pyramid = golden(size[0], size[1], &samples, Centring::Node, wrap, Extremum::Max, count).unwrap();
-        assert_eq!(bank_words(size, wrap, usize::MAX, false), pyramid.bank_words() as u64, "{size:?}");
+        let both = [Extremum::Max, Extremum::Min]
+            .map(|extremum| golden(size[0], size[1], &samples, Centring::Node, wrap, extremum, count).unwrap());
+        assert_eq!(bank_words(size, wrap, usize::MAX, false), both[0].bank_words() as u64, "{size:?}");
+        assert_eq!(bank_words(size, wrap, usize::MAX, true), Pyramids::from(&both).bank_words() as u64, "{size:?}");
     }
     assert!(
         bank_words([625, 625], [Clamp, Clamp], usize::MAX, false) <= 131_072

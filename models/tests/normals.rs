@@ -72,7 +72,7 @@ fn normals_refuse_what_has_no_room_or_is_too_steep() {
 
 /// Not every texel of a large map has a vertex, and the figures are those of a part of it.
 #[test]
-fn normals_of_large_maps_are_sampled() {
+fn normals_of_a_large_map_are_those_of_a_part() {
     let (width, height) = (1600, 1500);
     let wave = |at: usize| 3000.0 * ((at % width) as f64 / 9.0).sin() + 2000.0 * ((at / width) as f64 / 13.0).sin();
     let samples = (0..width * height).map(|at| (20_000.0 + wave(at)) as u16).collect();

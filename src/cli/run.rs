@@ -42,7 +42,7 @@ pub struct Arguments {
     /// What the hardware runs in
     #[arg(long, value_enum, default_value_t = Engine::Rust)]
     engine: Engine,
-    /// Cycles of a hundred, at random, in which each stream of the draw is held up: what leaves stays the same
+    /// Cycles of a hundred, at random and at most 90, in which the streams of the draw are held up; what leaves stays the same
     #[arg(long, value_name = "PERCENT", default_value_t = 0, value_parser = clap::value_parser!(u8).range(..=90))]
     stalls: u8,
     /// Which of all patterns of stalls
@@ -146,7 +146,7 @@ pub fn run(arguments: &Arguments) -> Result {
     rendered.report.scene = arguments.scene.display().to_string();
     rendered.report.engine = if engine == Engine::Verilator { "verilator" } else { "rust" };
     rendered.report.width_set = set.name;
-    rendered.report.stalls = arguments.stalls;
+    (rendered.report.stalls, rendered.report.seed) = (arguments.stalls, arguments.seed);
     rendered.report.warnings = warnings;
     rendered.report.seconds = begun.elapsed().as_secs_f64();
     let json = serde_json::to_string_pretty(&rendered.report)? + "\n";

@@ -14,7 +14,7 @@ const GATE: &str = include_str!("stall_gate.sv");
 /// How often streams are held up.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Stalls {
-    /// Cycles of a hundred, about, in which a stream is held up; below 100.
+    /// Cycles of a hundred, about, in which a stream is held up; below 100, or nothing ever moves.
     pub percent: u8,
     /// Which of all patterns.
     pub seed: u32,

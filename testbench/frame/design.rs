@@ -7,7 +7,7 @@
 //! ```
 //!
 //! No block runs in Rust. Without stalls the sink takes every triangle at once, so the counters of time are those of a design
-//! that is not held up from behind. With stalls, at random, every stream is held up that can be: at both ends, and
+//! that is not held up from behind. With stalls, at random, every stream that can wait is held up: at both ends, and
 //! between the blocks by gates in the emitted text.
 
 use super::prepare::{Prepared, PreparedObject};
@@ -29,8 +29,8 @@ use serde::Serialize;
 /// Cycles without an output beat after which nothing more comes: all has left before the last counter is asked for.
 const DRAIN: u64 = 4096;
 
-/// The streams between blocks that can be held up. Behind `vertices` and `shading` take a beat nothing stands on its way, as
-/// there is a place for its result.
+/// The streams between blocks that can be held up. Inside of `vertices` and `shading` none can: a beat goes once there is a
+/// place for its result.
 pub const LINKS: [Link; 8] = {
     const fn link(module: &'static str, instance: &'static str, ports: [&'static str; 2]) -> Link {
         Link { module, instance, ports }
@@ -96,6 +96,8 @@ pub struct DesignReport {
     pub warnings: Vec<String>,
     /// Cycles of a hundred in which each stream was held up.
     pub stalls: u8,
+    /// Which of all patterns of them.
+    pub seed: u32,
     /// Beats that the design took.
     pub commands: u64,
     /// Beats that it sent, each compared with the golden machine.
@@ -286,6 +288,7 @@ pub fn render_by_design(
         width_set: set.name,
         simulation_seconds: simulated.as_secs_f64(),
         stalls: stalls.percent,
+        seed: stalls.seed,
         commands: commands.len() as u64,
         beats: streamed.beats.len() as u64,
         cycles: streamed.cycles,

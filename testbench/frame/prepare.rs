@@ -253,6 +253,18 @@ mod tests {
             assert_eq!(set.name, name, "{sizes:?}");
             assert!(prepare(&scene, set).is_ok(), "{sizes:?}");
         }
+        // Minima besides.
+        for (side, name) in [(278, "default"), (279, "large"), (558, "large")] {
+            let text = SCENE.replace("300, 9", &format!("{side}, {side}"));
+            let scene = text.replace("cell_px = 4", "cell_px = 4\nextremum = \"vertex\"");
+            let scene = parse(&scene, "scene.toml", Path::new("")).unwrap();
+            assert_eq!(width_set(&scene).name, name, "{side}");
+            assert!(prepare(&scene, width_set(&scene)).is_ok(), "{side}");
+        }
+        let text = SCENE.replace("300, 9", "559, 559").replace("cell_px = 4", "cell_px = 4\nextremum = \"vertex\"");
+        let scene = parse(&text, "scene.toml", Path::new("")).unwrap();
+        let refusal = prepare(&scene, width_set(&scene)).err().unwrap().to_string();
+        assert!(refusal.contains("with maxima and minima of its levels, beyond the limit of 131072"), "{refusal}");
         let mut scene = parse(SCENE, "scene.toml", Path::new("")).unwrap();
         scene.objects[0].map = relief_models::map::HeightMap::procedural(relief_models::map::Procedural::Ramp, 2050, 3);
         assert_eq!(width_set(&scene), &large::SET);
