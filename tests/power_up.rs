@@ -162,9 +162,9 @@ fn netlists(blocks: &[&str], faults: usize) -> Outcome {
     Ok(())
 }
 
-/// Blocks whose netlist takes Yosys and Icarus minutes: hundreds of adders, or over 60 multipliers behind wide sums;
+/// Blocks whose netlist takes Yosys and Icarus minutes: hundreds of adders, or dozens of multipliers behind wide sums;
 /// and the design of all blocks.
-const LARGE: [&str; 4] = ["remesher", "face_normal", "light", "displacement_pipeline"];
+const LARGE: [&str; 5] = ["remesher", "face_normal", "gradient_normal", "light", "displacement_pipeline"];
 
 #[test]
 fn power_up_netlists_send_the_same_beats() -> Outcome {

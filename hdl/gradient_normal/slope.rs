@@ -12,7 +12,7 @@
 //!
 //! `difference`, `twist` and `weight` come at the beginning, `scale` four cycles and `amount` nine cycles later.
 
-use crate::pipeline::{Delay, DspProduct, Product2x1, ShiftRight};
+use crate::pipeline::{DspProduct, Product2x1, ShiftRight};
 use crate::prelude::*;
 
 /// Slope along an axis.
@@ -32,12 +32,13 @@ pub struct Slope {
     pub amount: Input<U<6>>,
     pub slope: Output<S<32>>,
     s3_product: DspProduct<18, 13, 31>,
-    s3_difference: Delay<17, 3>,
+    s1_difference: DataRegister<S<17>>,
+    s2_difference: DataRegister<S<17>>,
+    s3_difference: DataRegister<S<17>>,
     s4_sum: DataRegister<S<29>>,
     s9_product: Product2x1<29, 47>,
     s12_shift: ShiftRight<36>,
     s13_slope: DataRegister<S<32>>,
-    first: Wire<S<17>>,
     /// Sign and the bits that have to equal it.
     upper: Wire<U<5>>,
     most: Constant<S<32>>,
@@ -56,12 +57,13 @@ impl Default for Slope {
             amount: Input::default(),
             slope: Output::default(),
             s3_product: DspProduct::default(),
-            s3_difference: Delay::default(),
+            s1_difference: DataRegister::default(),
+            s2_difference: DataRegister::default(),
+            s3_difference: DataRegister::default(),
             s4_sum: DataRegister::default(),
             s9_product: Product2x1::default(),
             s12_shift: ShiftRight::default(),
             s13_slope: DataRegister::default(),
-            first: Wire::default(),
             upper: Wire::default(),
             most: Constant::new(S::MAX),
             least: Constant::new(S::MIN),
@@ -77,15 +79,12 @@ impl Slope {
 impl Logic for Slope {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, s3_product, s3_difference, s9_product, s12_shift);
-        dff_setup!(self, clock, s4_sum, s13_slope);
+        clock!(self, clock, s3_product, s9_product, s12_shift);
+        dff_setup!(self, clock, s1_difference, s2_difference, s3_difference, s4_sum, s13_slope);
         self.slope.next = self.s13_slope.q.val();
         self.s3_product.go.next = self.go.val();
         self.s3_product.a.next = self.twist.val();
         self.s3_product.b.next = bit_cast_to::<S<13>>(self.weight.val());
-        self.s3_difference.go.next = self.go.val();
-        self.s3_difference.value.next = bit_cast_to::<U<17>>(self.difference.val());
-        self.first.next = bit_cast_to::<S<17>>(self.s3_difference.delayed.val());
         self.s9_product.go.next = self.go.val();
         self.s9_product.a.next = self.s4_sum.q.val();
         self.s9_product.b.next = self.scale.val();
@@ -94,8 +93,11 @@ impl Logic for Slope {
         self.s12_shift.amount.next = self.amount.val();
         self.upper.next = bit_cast_to::<U<5>>(self.s12_shift.shifted.val() >> 31);
         if self.go.val() {
-            self.s4_sum.d.next =
-                (bit_cast_to::<S<29>>(self.first.val()) << 12) + bit_cast_to::<S<29>>(self.s3_product.p.val());
+            self.s1_difference.d.next = self.difference.val();
+            self.s2_difference.d.next = self.s1_difference.q.val();
+            self.s3_difference.d.next = self.s2_difference.q.val();
+            self.s4_sum.d.next = (bit_cast_to::<S<29>>(self.s3_difference.q.val()) << 12)
+                + bit_cast_to::<S<29>>(self.s3_product.p.val());
             self.s13_slope.d.next = bit_cast_to::<S<32>>(self.s12_shift.shifted.val());
             if self.upper.val().get_bit(4) && !self.upper.val().all() {
                 self.s13_slope.d.next = self.least.val();
@@ -110,4 +112,4 @@ impl Logic for Slope {
     }
 }
 
-latches! { [] Slope: s3_product, s3_difference, s9_product, s12_shift, s4_sum, s13_slope }
+latches! { [] Slope: s3_product, s1_difference, s2_difference, s3_difference, s9_product, s12_shift, s4_sum, s13_slope }
