@@ -90,8 +90,8 @@ fn stability_fails_for_no_method_in_hardware() {
     }
     assert_eq!(frames.matches(" cycles, hardware = golden\n").count(), scenes.len(), "{frames}");
     let (_, rules) = frames.split_once(&format!("\n{} scenes, 0 with cracks\n", scenes.len())).unwrap();
-    let count = RULES.len() * RULE_CELLS.len();
-    assert!(rules.ends_with(&format!("\n{count} rows, 0 with cracks where the rule forbids them\n")), "{rules}");
+    let compared = RULES.len() * RULE_CELLS.len();
+    assert!(rules.ends_with(&format!("\n{compared} rows, 0 with cracks where the rule forbids them\n")), "{rules}");
     for rule in RULES {
         let rows = rules.lines().filter(|line| line.contains(&format!(" {rule} ")));
         let cracks = rows.map(|line| line.split_whitespace().nth(6).unwrap().parse::<u64>().unwrap());
