@@ -26,15 +26,17 @@ mod lane_queue;
 mod narrow;
 mod passer;
 mod shading;
+mod sift;
 mod vertices;
 
 pub use assembly::{Assembly, AssemblyState};
 pub use constants::Constants;
-pub use counters::{Counter, Counters};
+pub use counters::{Counter, Counters, PairCounter};
 pub use lane_queue::LaneQueue;
 pub use narrow::{Narrow, NarrowLane};
 pub use passer::Passer;
 pub use shading::Shading;
+pub use sift::{Beyond, Sift, Unpack};
 pub use vertices::Vertices;
 
 use crate::prelude::*;
@@ -493,10 +495,15 @@ impl<
         self.counters.steps.next = self.step_goes.val();
         self.counters.vertices.next = self.vertices.sends.val();
         self.counters.triangles.next = self.shading.comes.val();
+        self.counters.two_triangles.next = self.shading.two_come.val();
         self.counters.invalid.next = self.shading.invalid.val();
+        self.counters.two_invalid.next = self.shading.two_invalid.val();
         self.counters.too_near.next = self.shading.near.val();
+        self.counters.two_too_near.next = self.shading.two_near.val();
         self.counters.beyond.next = self.shading.range.val();
+        self.counters.two_beyond.next = self.shading.two_range.val();
         self.counters.off.next = self.shading.off.val();
+        self.counters.two_off.next = self.shading.two_off.val();
         self.counters.sent.next = self.shading.out_valid.val() && self.shading.out_ready.val();
         self.counters.cycles.next = !self.idle.val();
         self.counters.piece_waits.next = self.assembly.piece_valid.val() && !self.assembly.piece_ready.val();

@@ -6,7 +6,7 @@
 //! | index | the counter that is read: 0 .. 19 of what came, 24 .. 30 of cycles; the others are 0
 //! | read  | it becomes the value, which stays
 //! | value | a cycle later
-//! | others | one more of them
+//! | others | one more of them; with `two_*` two
 
 use crate::prelude::*;
 
@@ -40,6 +40,43 @@ impl Logic for Counter {
 
 latches! { [] Counter: held }
 
+/// A counter of what may come twice in a cycle.
+#[derive(Clone, Debug, Default, LogicBlock)]
+#[allow(missing_docs)]
+pub struct PairCounter {
+    pub clock: Input<ClockReset>,
+    pub clear: Input<Bit>,
+    pub adds: Input<Bit>,
+    /// It adds two.
+    pub twice: Input<Bit>,
+    pub count: Output<U<32>>,
+    held: Register<U<32>>,
+    step: Wire<U<32>>,
+}
+
+impl Logic for PairCounter {
+    #[hdl_gen]
+    fn update(&mut self) {
+        dff_setup!(self, clock, held);
+        self.count.next = self.held.q.val();
+        self.step.next = 1.into();
+        if self.twice.val() && !self.held.q.val().get_bits::<31>(1).all() {
+            self.step.next = 2.into();
+        }
+        if self.clear.val() {
+            self.held.d.next = 0.into();
+        } else if self.adds.val() && !self.held.q.val().all() {
+            self.held.d.next = self.held.q.val() + self.step.val();
+        }
+    }
+
+    fn timing(&self) -> Vec<TimingInfo> {
+        module_name("pair_counter")
+    }
+}
+
+latches! { [] PairCounter: held }
+
 /// All counters.
 #[derive(Clone, Debug, Default, LogicBlock)]
 #[allow(missing_docs)]
@@ -64,10 +101,15 @@ pub struct Counters {
     pub steps: Input<Bit>,
     pub vertices: Input<Bit>,
     pub triangles: Input<Bit>,
+    pub two_triangles: Input<Bit>,
     pub invalid: Input<Bit>,
+    pub two_invalid: Input<Bit>,
     pub too_near: Input<Bit>,
+    pub two_too_near: Input<Bit>,
     pub beyond: Input<Bit>,
+    pub two_beyond: Input<Bit>,
     pub off: Input<Bit>,
+    pub two_off: Input<Bit>,
     pub sent: Input<Bit>,
     pub cycles: Input<Bit>,
     pub piece_waits: Input<Bit>,
@@ -90,11 +132,11 @@ pub struct Counters {
     pieces_count: Counter,
     steps_count: Counter,
     vertices_count: Counter,
-    triangles_count: Counter,
-    invalid_count: Counter,
-    too_near_count: Counter,
-    beyond_count: Counter,
-    off_count: Counter,
+    triangles_count: PairCounter,
+    invalid_count: PairCounter,
+    too_near_count: PairCounter,
+    beyond_count: PairCounter,
+    off_count: PairCounter,
     sent_count: Counter,
     cycles_count: Counter,
     piece_waits_count: Counter,
@@ -175,14 +217,19 @@ impl Logic for Counters {
         self.vertices_count.adds.next = self.vertices.val();
         self.triangles_count.clear.next = self.clear.val();
         self.triangles_count.adds.next = self.triangles.val();
+        self.triangles_count.twice.next = self.two_triangles.val();
         self.invalid_count.clear.next = self.clear.val();
         self.invalid_count.adds.next = self.invalid.val();
+        self.invalid_count.twice.next = self.two_invalid.val();
         self.too_near_count.clear.next = self.clear.val();
         self.too_near_count.adds.next = self.too_near.val();
+        self.too_near_count.twice.next = self.two_too_near.val();
         self.beyond_count.clear.next = self.clear.val();
         self.beyond_count.adds.next = self.beyond.val();
+        self.beyond_count.twice.next = self.two_beyond.val();
         self.off_count.clear.next = self.clear.val();
         self.off_count.adds.next = self.off.val();
+        self.off_count.twice.next = self.two_off.val();
         self.sent_count.clear.next = self.clear.val();
         self.sent_count.adds.next = self.sent.val();
         self.cycles_count.clear.next = self.clear.val();
@@ -265,4 +312,4 @@ impl Logic for Counters {
     }
 }
 
-watched! { [] Counters: clear, index, read, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, invalid, too_near, beyond, off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, held }
+watched! { [] Counters: clear, index, read, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, two_triangles, invalid, two_invalid, too_near, two_too_near, beyond, two_beyond, off, two_off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, held }
