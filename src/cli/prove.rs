@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result {
     for contract in contracts {
         let name = contract.name;
         let begun = Instant::now();
-        let proof = Proof::new(&solver, contract, set, arguments.fault)?;
+        let proof = Proof::new(&solver, contract, set, arguments.fault, &properties)?;
         let line = |property: &str, verdict: &str, seconds: f64, what: &str| {
             format!("{name:18} {property:9} {verdict:9} {seconds:>8.1}  {what}\n")
         };

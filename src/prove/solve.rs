@@ -90,7 +90,8 @@ pub struct Proof<'a> {
 }
 
 impl<'a> Proof<'a> {
-    /// Emits a block or a part, and has Yosys write its transition relation, one for each property.
+    /// Emits a block or a part, and has Yosys write its transition relation, one for each of `properties`, which are what may be
+    /// proved of it then.
     ///
     /// # Errors
     /// A sentence: a block cannot be emitted, or Yosys refuses.
@@ -99,6 +100,7 @@ impl<'a> Proof<'a> {
         contract: &'static Contract,
         set: &WidthSet,
         fault: Option<Property>,
+        properties: &[Property],
     ) -> Result<Proof<'a>, String> {
         let name = contract.name;
         let mut emission = match contract.part {
@@ -122,7 +124,7 @@ impl<'a> Proof<'a> {
             .filter(|port| port.direction == Direction::Output && port.name != "in_ready")
             .map(|port| format!("w:{}", port.name))
             .collect();
-        let script = script(contract, &sources, &outputs);
+        let script = script(contract, &sources, &outputs, properties);
         fs::write(folder.path().join("proof.ys"), script).map_err(|error| format!("the script of {name}: {error}"))?;
         let mut yosys = solver.command("yosys");
         yosys.args(["-Q", "-T", "-q", "proof.ys"]).current_dir(folder.path());
@@ -282,11 +284,13 @@ fn passed() -> Verdict {
 }
 
 /// One reading and flattening, and a file a property.
-fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String {
+fn script(contract: &Contract, sources: &[String], outputs: &[String], properties: &[Property]) -> String {
     let loose: String =
         contract.loose.iter().map(|name| format!("cutpoint relief_{}/{name}\n", contract.name)).collect();
+    // What is cut off is not looked at any further.
+    let rest = if loose.is_empty() { String::new() } else { format!("{loose}hierarchy -top {TOP}\n") };
     let mut text = format!(
-        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\nproc\n{loose}flatten\n",
+        "read_verilog -sv {}\nread_verilog -sv -formal proof.sv\nhierarchy -check -top {TOP}\n{rest}proc\nflatten\n",
         sources.join(" ")
     );
     // All that the outputs follow within a cycle, and `out_ready` among it. Before anything is simplified: wires would lose
@@ -297,9 +301,12 @@ fn script(contract: &Contract, sources: &[String], outputs: &[String]) -> String
         "select -write path.txt {} %ci*:-$dff,$memwr,$memwr_v2,$mem,$mem_v2 w:out_ready %i\n",
         all.collect::<Vec<_>>().join(" ")
     );
+    if properties == [Property::Free] {
+        return text;
+    }
     text +=
         "memory_dff\nmemory_collect\nmemory_nordff\nopt_clean\nasync2sync\ndffunmap\nopt_clean\ndesign -save base\n";
-    for property in Property::ALL {
+    for property in properties.iter().copied() {
         let name = property.name();
         let claimed = contract.claims.iter().any(|claim| claim.property == property);
         // Assumptions are of one property, or hold always.
