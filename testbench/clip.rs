@@ -133,7 +133,7 @@ impl Binding for ClipBinding {
         "cuts a base triangle at z0 and at the guard band"
     }
     fn latency(&self) -> &'static str {
-        "1094 uncut, 1371 more a point"
+        "1094 uncut, 1380 more a point"
     }
     fn interval(&self) -> &'static str {
         "20 a vertex, and the latency"

@@ -3,14 +3,14 @@
 //!
 //! `value = floor(a + (b - a) p / q + 1/2)`
 //!
-//! | port  | format           | meaning |   Latency 149   Golden: models::clip, `between`   Error 0
+//! | port  | format           | meaning |   Latency 150   Golden: models::clip, `between`   Error 0
 //! | start | Bit              | takes a and b |
 //! | a, b  | signed 48        | a stands until `done` |
 //! | p, q  | unsigned 64, 65  | stand until `done`; p < q |
 //! | done  | Bit              | the value stands, until the next start |
 //!
 //! The bits of |b - a| come one after another, the highest first: rest = 2 rest + bit p, and q is taken from it, at most twice,
-//! for rest < q and p < q make less than 3 q. So no number is longer than q and two bits, although the product has 112.
+//! for rest < q and p < q make less than 3 q; what is left with q taken once and twice is made first, and chosen in the next cycle. So no number is longer than q and two bits, although the product has 112.
 //!
 //! With b < a the value is a less the quotient, and a half is rounded down: it is up for the value.
 
@@ -25,15 +25,17 @@ pub enum MixState {
     Size,
     /// The next bit.
     Multiply,
-    /// q is taken once,
-    First,
-    /// and again.
-    Second,
+    /// q is taken once, and twice.
+    Take,
+    /// One of them is the rest.
+    Choose,
     /// The rest is doubled,
     Double,
     /// and compared with q.
+    Compare,
+    /// The quotient is rounded,
     Round,
-    /// The quotient is added.
+    /// and added.
     Add,
     /// The value stands.
     Done,
@@ -58,10 +60,12 @@ pub struct Between {
     size: DataRegister<U<48>>,
     /// Below q; between bits below 3 q, so 67 bits and a sign.
     rest: DataRegister<WideS<68>>,
+    /// Less q, and twice that.
+    once: DataRegister<WideS<68>>,
+    twice: DataRegister<WideS<68>>,
     quotient: DataRegister<U<48>>,
     sum: DataRegister<S<48>>,
-    trial: Wire<WideS<68>>,
-    takes: Wire<Bit>,
+    taken: Wire<U<2>>,
     doubled: Wire<WideS<68>>,
     last: Constant<U<6>>,
 }
@@ -83,10 +87,11 @@ impl Default for Between {
             falls: DataRegister::default(),
             size: DataRegister::default(),
             rest: DataRegister::default(),
+            once: DataRegister::default(),
+            twice: DataRegister::default(),
             quotient: DataRegister::default(),
             sum: DataRegister::default(),
-            trial: Wire::default(),
-            takes: Wire::default(),
+            taken: Wire::default(),
             doubled: Wire::default(),
             last: Constant::new(U::new(47)),
         }
@@ -95,17 +100,23 @@ impl Default for Between {
 
 impl Between {
     /// Cycles from the one in which `start` is high to the one in which `done` is.
-    pub const LATENCY: usize = 2 + 3 * 48 + 3;
+    pub const LATENCY: usize = 2 + 3 * 48 + 4;
 }
 
 impl Logic for Between {
     #[hdl_gen]
     fn update(&mut self) {
-        dff_setup!(self, clock, state, left, difference, falls, size, rest, quotient, sum);
+        dff_setup!(self, clock, state, left, difference, falls, size, rest, once, twice, quotient, sum);
         self.done.next = self.state.q.val() == MixState::Done;
         self.value.next = self.sum.q.val();
-        self.trial.next = self.rest.q.val() - bit_cast_to::<WideS<68>>(self.q.val());
-        self.takes.next = !self.trial.val().get_bit(67);
+        self.once.d.next = self.rest.q.val() - bit_cast_to::<WideS<68>>(self.q.val());
+        self.twice.d.next = self.rest.q.val() - (bit_cast_to::<WideS<68>>(self.q.val()) << 1);
+        self.taken.next = 2.into();
+        if self.once.q.val().get_bit(67) {
+            self.taken.next = 0.into();
+        } else if self.twice.q.val().get_bit(67) {
+            self.taken.next = 1.into();
+        }
         self.doubled.next = self.rest.q.val() << 1;
         match self.state.q.val() {
             MixState::Idle => {
@@ -131,19 +142,17 @@ impl Logic for Between {
                     self.rest.d.next = self.doubled.val() + bit_cast_to::<WideS<68>>(self.p.val());
                 }
                 self.size.d.next = self.size.q.val() << 1;
-                self.state.d.next = MixState::First;
+                self.state.d.next = MixState::Take;
             }
-            MixState::First => {
-                self.quotient.d.next = (self.quotient.q.val() << 1) | bit_cast_to::<U<48>>(self.takes.val());
-                if self.takes.val() {
-                    self.rest.d.next = self.trial.val();
-                }
-                self.state.d.next = MixState::Second;
+            MixState::Take => {
+                self.state.d.next = MixState::Choose;
             }
-            MixState::Second => {
-                self.quotient.d.next = self.quotient.q.val() + bit_cast_to::<U<48>>(self.takes.val());
-                if self.takes.val() {
-                    self.rest.d.next = self.trial.val();
+            MixState::Choose => {
+                self.quotient.d.next = (self.quotient.q.val() << 1) + bit_cast_to::<U<48>>(self.taken.val());
+                if self.taken.val().get_bit(1) {
+                    self.rest.d.next = self.twice.q.val();
+                } else if self.taken.val().get_bit(0) {
+                    self.rest.d.next = self.once.q.val();
                 }
                 self.left.d.next = self.left.q.val() - 1;
                 self.state.d.next = MixState::Multiply;
@@ -153,10 +162,13 @@ impl Logic for Between {
             }
             MixState::Double => {
                 self.rest.d.next = self.doubled.val();
+                self.state.d.next = MixState::Compare;
+            }
+            MixState::Compare => {
                 self.state.d.next = MixState::Round;
             }
             MixState::Round => {
-                if self.takes.val() && (!self.falls.q.val() || self.trial.val().any()) {
+                if !self.once.q.val().get_bit(67) && (!self.falls.q.val() || self.once.q.val().any()) {
                     self.quotient.d.next = self.quotient.q.val() + 1;
                 }
                 self.state.d.next = MixState::Add;
@@ -179,4 +191,4 @@ impl Logic for Between {
     }
 }
 
-watched! { [] Between: start, a, b, p, q;; state, left, difference, falls, size, rest, quotient, sum }
+watched! { [] Between: start, a, b, p, q;; state, left, difference, falls, size, rest, once, twice, quotient, sum }
