@@ -13,8 +13,8 @@
 //! | out_kept  | Bit           | three vertices or more are left
 //! | out_last  | Bit           | the last vertex of its polygon; a polygon of nothing is one beat
 //!
-//! A plane takes 69 cycles a vertex for the distances, and only if one is below 0 another 18 for a vertex that stays and 1,380
-//! for one that is made. What no plane cuts begins to leave after 1,094 cycles, a vertex every 20.
+//! A plane takes 70 cycles a vertex for the distances, and only if one is below 0 another 27 for a vertex that stays and 1,389
+//! for one that is made. What no plane cuts begins to leave after 1,118 cycles, a vertex every 29.
 //!
 //! Which end of an edge comes first makes no difference: the point is an exact quotient that is rounded once.
 //!
@@ -39,8 +39,9 @@ pub enum ClipState {
     Load,
     /// and is taken.
     Taken,
-    /// z of a vertex is read,
+    /// z of a vertex is read, two cycles long,
     Measure,
+    Fetch,
     /// and multiplied;
     Depth,
     /// then its x or y, or z0,
@@ -55,6 +56,7 @@ pub enum ClipState {
     Keep,
     /// It is copied, lane by lane.
     CopyRead,
+    CopyFetch,
     CopyWrite,
     /// Whether the edge behind it is cut.
     Cross,
@@ -66,6 +68,7 @@ pub enum ClipState {
     /// The point, lane by lane.
     ReadA,
     ReadB,
+    From,
     Start,
     Mix,
     /// The next vertex.
@@ -75,6 +78,7 @@ pub enum ClipState {
     /// A vertex is sent, lane by lane.
     Send,
     SendRead,
+    SendFetch,
     SendKeep,
     Wait,
 }
@@ -97,7 +101,7 @@ pub struct Clip {
     state: Register<ClipState>,
     taking: Register<Bit>,
     /// Bank, vertex, lane. The polygon is in one bank, what is left of it goes into the other.
-    memory: Ram<S<48>, 9>,
+    memory: RegisteredRam<S<48>, 9>,
     distances: Ram<WideS<64>, 4>,
     bank: Register<Bit>,
     plane: Register<U<3>>,
@@ -166,7 +170,7 @@ impl Default for Clip {
             out_last: Output::default(),
             state: Register::new(ClipState::Load),
             taking: Register::default(),
-            memory: Ram::default(),
+            memory: RegisteredRam::default(),
             distances: Ram::default(),
             bank: Register::default(),
             plane: Register::default(),
@@ -223,9 +227,9 @@ impl Default for Clip {
 impl Clip {
     /// Cycles from the first vertex of a triangle that no plane cuts to what is sent first: ten a vertex for the memory, the
     /// distances of three vertices and a decision for each plane, and one vertex out of the memory.
-    pub const LATENCY: usize = 3 * 10 + 5 * (3 * (2 * SerialProduct::LATENCY + 3) + 2) + 19;
+    pub const LATENCY: usize = 3 * 10 + 5 * (3 * (2 * SerialProduct::LATENCY + 4) + 2) + 28;
     /// Cycles between two vertices that are sent.
-    pub const INTERVAL: usize = 20;
+    pub const INTERVAL: usize = 29;
 }
 
 impl Logic for Clip {
@@ -292,7 +296,10 @@ impl Logic for Clip {
         self.at_lane.next = self.lane.q.val();
         if self.state.q.val() == ClipState::Measure {
             self.at_lane.next = 2.into();
-        } else if self.state.q.val() == ClipState::Depth || self.state.q.val() == ClipState::Across {
+        } else if self.state.q.val() == ClipState::Fetch
+            || self.state.q.val() == ClipState::Depth
+            || self.state.q.val() == ClipState::Across
+        {
             self.at_lane.next = self.axis.val();
         } else if self.state.q.val() == ClipState::ReadB {
             self.at.next = self.there.val();
@@ -300,6 +307,7 @@ impl Logic for Clip {
         self.memory.read_address.next = (bit_cast_to::<U<9>>(self.bank.q.val()) << 8)
             | (bit_cast_to::<U<9>>(self.at.val()) << 4)
             | bit_cast_to::<U<9>>(self.at_lane.val());
+        self.memory.output_enable.next = true;
         self.memory.write_enable.next = false;
         self.memory.write_address.next = (bit_cast_to::<U<9>>(self.other.val()) << 8)
             | (bit_cast_to::<U<9>>(bit_cast_to::<U<4>>(self.next_vertices.q.val())) << 4)
@@ -367,6 +375,9 @@ impl Logic for Clip {
                 }
             }
             ClipState::Measure => {
+                self.state.d.next = ClipState::Fetch;
+            }
+            ClipState::Fetch => {
                 self.state.d.next = ClipState::Depth;
             }
             ClipState::Depth => {
@@ -418,6 +429,9 @@ impl Logic for Clip {
                 }
             }
             ClipState::CopyRead => {
+                self.state.d.next = ClipState::CopyFetch;
+            }
+            ClipState::CopyFetch => {
                 self.state.d.next = ClipState::CopyWrite;
             }
             ClipState::CopyWrite => {
@@ -455,6 +469,9 @@ impl Logic for Clip {
                 self.state.d.next = ClipState::ReadB;
             }
             ClipState::ReadB => {
+                self.state.d.next = ClipState::From;
+            }
+            ClipState::From => {
                 self.from.d.next = self.memory.read_data.val();
                 self.state.d.next = ClipState::Start;
             }
@@ -509,6 +526,9 @@ impl Logic for Clip {
                 }
             }
             ClipState::SendRead => {
+                self.state.d.next = ClipState::SendFetch;
+            }
+            ClipState::SendFetch => {
                 self.state.d.next = ClipState::SendKeep;
             }
             ClipState::SendKeep => {

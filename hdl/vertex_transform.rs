@@ -95,6 +95,8 @@ pub struct VertexTransform {
     // Control: all else moves while a round runs.
     running: Register<Bit>,
     step: Register<U<6>>,
+    /// The round ends in this cycle: its last step.
+    ending: Register<Bit>,
     taking: Register<Bit>,
     /// The first constant has come.
     begun: Register<Bit>,
@@ -149,7 +151,7 @@ pub struct VertexTransform {
     clears: Wire<Bit>,
     limit_index: Constant<U<6>>,
     read: Constant<U<6>>,
-    last: Constant<U<6>>,
+    before_last: Constant<U<6>>,
     minus: Constant<S<63>>,
     below: Constant<S<63>>,
     no_data: Constant<Lanes<9, 32>>,
@@ -177,6 +179,7 @@ impl Default for VertexTransform {
             running: Register::default(),
             // The word of the last step stands before a round begins.
             step: Register::new(U::new(ROUND as i64 - 1)),
+            ending: Register::default(),
             taking: Register::default(),
             begun: Register::default(),
             newer: Register::default(),
@@ -227,7 +230,7 @@ impl Default for VertexTransform {
             clears: Wire::default(),
             limit_index: Constant::new(U::new(32 + term::LIMIT)),
             read: Constant::new(U::new(READ as i64)),
-            last: Constant::new(U::new(ROUND as i64 - 1)),
+            before_last: Constant::new(U::new(ROUND as i64 - 2)),
             minus: Constant::new(S::new(-(1 << 16))),
             below: Constant::new(S::new((1 << 25) - 1)),
             no_data: Constant::new(Lanes::default()),
@@ -248,7 +251,8 @@ impl Logic for VertexTransform {
     fn update(&mut self) {
         clock!(self, clock, schedule, operands, sums, leading, newton, logarithm);
         dff_setup!(
-            self, clock, running, step, taking, begun, newer, older, as_is, term, zeros, inverse, c, along, octaves
+            self, clock, running, step, ending, taking, begun, newer, older, as_is, term, zeros, inverse, c, along,
+            octaves
         );
         dff_setup!(self, clock, log_term, limit, mask, sides, lane_fails, grid_fails, shifted_corner, checks_corner);
         dff_setup!(self, clock, sent, data, corner, view, flags, status);
@@ -264,7 +268,8 @@ impl Logic for VertexTransform {
         // A round begins with a vertex at the input, or one that has gone through its first round, once the output is free.
         self.go.next = self.running.q.val();
         self.schedule.step.next = self.step.q.val();
-        self.ends.next = self.go.val() && self.step.q.val() == self.last.val();
+        self.ending.d.next = self.go.val() && self.step.q.val() == self.before_last.val();
+        self.ends.next = self.ending.q.val();
         self.out_free.next = !self.sent.q.val() || self.out_ready.val();
         self.vertex.next = self.in_valid.val() && self.in_kind.val().any();
         self.constant.next = self.in_valid.val() && !self.in_kind.val().any();
@@ -476,6 +481,6 @@ ports! {
         inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
         outputs: in_ready, out_valid, out_data, out_corner, out_view, out_outcode, out_outside, out_status;
         blocks: schedule, operands, sums, leading, newton, logarithm;
-        state: running, step, taking, begun, newer, older, as_is, schedule, operands, sums, leading, newton, logarithm, term, zeros, inverse, c, along, octaves, log_term, limit, mask, sides, lane_fails, grid_fails, shifted_corner, checks_corner, sent, data, corner, view, flags, status
+        state: running, step, ending, taking, begun, newer, older, as_is, schedule, operands, sums, leading, newton, logarithm, term, zeros, inverse, c, along, octaves, log_term, limit, mask, sides, lane_fails, grid_fails, shifted_corner, checks_corner, sent, data, corner, view, flags, status
     }
 }

@@ -133,10 +133,10 @@ impl Binding for ClipBinding {
         "cuts a base triangle at z0 and at the guard band"
     }
     fn latency(&self) -> &'static str {
-        "1094 uncut, 1380 more a point"
+        "1118 uncut, 1389 more a point"
     }
     fn interval(&self) -> &'static str {
-        "20 a vertex, and the latency"
+        "29 a vertex, and the latency"
     }
     fn error(&self) -> &'static str {
         "1/2 unit a plane"

@@ -243,6 +243,45 @@ fn synth_packs_registers_behind_block_ram() -> Outcome {
     Ok(())
 }
 
+/// A multiplier of which two bits are read, each in a register; then one that has its register already, and one that is read
+/// elsewhere, too.
+#[test]
+fn synth_packs_registers_behind_a_multiplier() -> Outcome {
+    let register = |d: u64, q: u64| {
+        json!({
+            "type": "TRELLIS_FF", "parameters": {"CEMUX": "CE", "CLKMUX": "CLK"},
+            "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "LSR": "input", "Q": "output"},
+            "connections": {"CLK": [2], "CE": [3], "DI": [d], "LSR": ["0"], "Q": [q]},
+        })
+    };
+    let netlist = |outputs: Value| {
+        json!({"modules": {"top": {
+            "ports": {"clock": {"direction": "input", "bits": [2]}, "out": {"direction": "output", "bits": outputs}},
+            "cells": {
+                "multiplier": {
+                    "type": "MULT18X18D", "parameters": {},
+                    "port_directions": {"A0": "input", "P0": "output", "P1": "output", "P2": "output"},
+                    "connections": {"A0": [5], "P0": [10], "P1": [11], "P2": [12]},
+                },
+                "first": register(10, 20), "second": register(11, 21),
+            },
+        }}})
+    };
+    let mut packed = netlist(json!([20, 21]));
+    assert_eq!(output_registers(&mut packed, "top"), Ok(2));
+    let cells = &packed["modules"]["top"]["cells"];
+    assert_eq!(cells.as_object().map(|cells| cells.len()), Some(1));
+    let (connections, parameters) = (&cells["multiplier"]["connections"], &cells["multiplier"]["parameters"]);
+    assert_eq!(
+        ["P0", "P1", "P2", "CLK0", "CE0", "RST0"].map(|port| connections[port][0].clone()),
+        [json!(20), json!(21), json!(12), json!(2), json!(3), json!("0")]
+    );
+    assert_eq!([&parameters["REG_OUTPUT_CLK"], &parameters["REG_OUTPUT_CE"]], [&json!("CLK0"), &json!("CE0")]);
+    assert_eq!(output_registers(&mut packed, "top"), Ok(0), "it is done once");
+    assert_eq!(output_registers(&mut netlist(json!([20, 21, 11])), "top"), Ok(0), "a bit is read without its register");
+    Ok(())
+}
+
 #[test]
 fn synth_harness_of_every_block_is_clean() -> Outcome {
     if !tools::require_all(&["verilator", "iverilog"], "lint of the harnesses")? {

@@ -66,6 +66,9 @@ pub struct TexelAxis {
     s16_end: DataRegister<S<34>>,
     s16_over: DataRegister<Bit>,
     s17_texel: DataRegister<S<34>>,
+    s17_near: DataRegister<Bit>,
+    s17_end_near: DataRegister<Bit>,
+    s17_over: DataRegister<Bit>,
     s18_texel: DataRegister<U<29>>,
     doubled: Wire<U<33>>,
     size_16: Wire<S<34>>,
@@ -118,6 +121,9 @@ impl Default for TexelAxis {
             s16_end: DataRegister::default(),
             s16_over: DataRegister::default(),
             s17_texel: DataRegister::default(),
+            s17_near: DataRegister::default(),
+            s17_end_near: DataRegister::default(),
+            s17_over: DataRegister::default(),
             s18_texel: DataRegister::default(),
             doubled: Wire::default(),
             size_16: Wire::default(),
@@ -141,7 +147,7 @@ impl Logic for TexelAxis {
         dff_setup!(self, clock, s12_texel, s12_less, s12_over, s12_size, s12_bound, s12_repeat);
         dff_setup!(self, clock, s13_texel, s13_size, s13_bound, s13_repeat);
         dff_setup!(self, clock, s14_texel, s14_less, s14_over, s14_bound, s14_repeat, s15_texel, s15_bound, s15_repeat);
-        dff_setup!(self, clock, s16_texel, s16_end, s16_over, s17_texel, s18_texel);
+        dff_setup!(self, clock, s16_texel, s16_end, s16_over, s17_texel, s17_near, s17_end_near, s17_over, s18_texel);
         self.texel.next = self.s18_texel.q.val();
 
         self.product.go.next = self.go.val();
@@ -207,8 +213,17 @@ impl Logic for TexelAxis {
             if self.s16_over.q.val() {
                 self.s17_texel.d.next = self.s16_end.q.val();
             }
+            // At most 2^-6, of bits rather than by a comparison, which would be a subtraction.
+            self.s17_over.d.next = self.s16_over.q.val();
+            self.s17_near.d.next = self.s16_texel.q.val().get_bit(33)
+                || (!self.s16_texel.q.val().get_bits::<22>(11).any()
+                    && !(self.s16_texel.q.val().get_bit(10) && self.s16_texel.q.val().get_bits::<10>(0).any()));
+            self.s17_end_near.d.next = self.s16_end.q.val().get_bit(33)
+                || (!self.s16_end.q.val().get_bits::<22>(11).any()
+                    && !(self.s16_end.q.val().get_bit(10) && self.s16_end.q.val().get_bits::<10>(0).any()));
             self.s18_texel.d.next = bit_cast_to::<U<29>>(self.s17_texel.q.val());
-            if self.s17_texel.q.val() <= self.snap.val() {
+            if (self.s17_near.q.val() && !self.s17_over.q.val()) || (self.s17_end_near.q.val() && self.s17_over.q.val())
+            {
                 self.s18_texel.d.next = 0.into();
             }
         }
@@ -219,4 +234,4 @@ impl Logic for TexelAxis {
     }
 }
 
-latches! { [] TexelAxis: product, s6_amount, shift, s10_low, s10_beyond, s10_axis, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_less, s12_over, s12_size, s12_bound, s12_repeat, s13_texel, s13_size, s13_bound, s13_repeat, s14_texel, s14_less, s14_over, s14_bound, s14_repeat, s15_texel, s15_bound, s15_repeat, s16_texel, s16_end, s16_over, s17_texel, s18_texel }
+latches! { [] TexelAxis: product, s6_amount, shift, s10_low, s10_beyond, s10_axis, s11_texel, s11_size, s11_bound, s11_repeat, s12_texel, s12_less, s12_over, s12_size, s12_bound, s12_repeat, s13_texel, s13_size, s13_bound, s13_repeat, s14_texel, s14_less, s14_over, s14_bound, s14_repeat, s15_texel, s15_bound, s15_repeat, s16_texel, s16_end, s16_over, s17_texel, s17_near, s17_end_near, s17_over, s18_texel }
