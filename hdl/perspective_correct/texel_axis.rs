@@ -216,11 +216,11 @@ impl Logic for TexelAxis {
             // At most 2^-6, of bits rather than by a comparison, which would be a subtraction.
             self.s17_over.d.next = self.s16_over.q.val();
             self.s17_near.d.next = self.s16_texel.q.val().get_bit(33)
-                || (!self.s16_texel.q.val().get_bits::<22>(11).any()
-                    && !(self.s16_texel.q.val().get_bit(10) && self.s16_texel.q.val().get_bits::<10>(0).any()));
+                || !(self.s16_texel.q.val().get_bits::<22>(11).any()
+                    || (self.s16_texel.q.val().get_bit(10) && self.s16_texel.q.val().get_bits::<10>(0).any()));
             self.s17_end_near.d.next = self.s16_end.q.val().get_bit(33)
-                || (!self.s16_end.q.val().get_bits::<22>(11).any()
-                    && !(self.s16_end.q.val().get_bit(10) && self.s16_end.q.val().get_bits::<10>(0).any()));
+                || !(self.s16_end.q.val().get_bits::<22>(11).any()
+                    || (self.s16_end.q.val().get_bit(10) && self.s16_end.q.val().get_bits::<10>(0).any()));
             self.s18_texel.d.next = bit_cast_to::<U<29>>(self.s17_texel.q.val());
             if (self.s17_near.q.val() && !self.s17_over.q.val()) || (self.s17_end_near.q.val() && self.s17_over.q.val())
             {
