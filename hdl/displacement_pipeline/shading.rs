@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Triangles of the strip unit become lit triangles, one a cycle; those without a place, and those off the screen, are left
-//! out.
+//! Steps of the strip unit become lit triangles, one a cycle; what is left out, [`Sift`] says.
 //!
 //! ```text
-//! strips -> triangle -> places -+-> [face_normal] -> normal -+-> [light] -> colour -+-> out
+//! strips -> [sift] -> triangle -+-> [face_normal] -> normal -+-> [light] -> colour -+-> out
 //!                               +-> position, heights -------'                      |
 //!                               '-> X', Y', c', q ----------------------------------'
 //! ```
 //!
 //! A triangle goes on its way once there is a place for it at the end of it, so nothing on the way ever stands.
 //!
-//! | port  | format | meaning |   Interval 1 a triangle; golden: models::displacement_pipeline::Machine
+//! | port  | format | meaning |   Interval 1 a lit triangle, or a step of none; golden: models::displacement_pipeline::Machine
 //! | in_*  | stream | of the strip unit; vertices as `vertices` packs them |
 //! | skips, half_* | Bit, UQ16.8 | leaves out what lies beyond one side of the viewport |
 //! | out_* | stream | X', Y' SQ13.8; c' UQ0.31; q UQ16.8; colour, red lowest   Error 0 |
 //! | idle  | Bit    | no triangle is here |
-//! | comes, invalid, near, range, off | Bit | a triangle has come, and why one was left out |
+//! | comes, invalid, near, range, off | Bit | triangles that came, and why some were left out; `two_*`: two of them |
 
 use crate::displacement_pipeline::lane_queue::LaneQueue;
 use crate::displacement_pipeline::sift::Sift;
