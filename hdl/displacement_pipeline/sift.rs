@@ -73,8 +73,8 @@ impl Logic for Beyond {
 #[allow(missing_docs)]
 pub struct Unpack {
     pub vertex: Input<Lanes<3, 34>>,
-    pub x: Output<S<22>>,
-    pub y: Output<S<22>>,
+    pub pixel_x: Output<S<22>>,
+    pub pixel_y: Output<S<22>>,
     pub c: Output<S<32>>,
     pub height: Output<S<25>>,
     word_0: Wire<U<34>>,
@@ -89,8 +89,8 @@ impl Logic for Unpack {
         self.word_0.next = bit_cast_to::<U<34>>(self.vertex.val().get_bit(0));
         self.word_1.next = bit_cast_to::<U<34>>(self.vertex.val().get_bit(1));
         self.word_2.next = bit_cast_to::<U<34>>(self.vertex.val().get_bit(2));
-        self.x.next = bit_cast_to::<S<22>>(self.word_0.val().get_bits::<22>(0));
-        self.y.next = bit_cast_to::<S<22>>(self.word_1.val().get_bits::<22>(0));
+        self.pixel_x.next = bit_cast_to::<S<22>>(self.word_0.val().get_bits::<22>(0));
+        self.pixel_y.next = bit_cast_to::<S<22>>(self.word_1.val().get_bits::<22>(0));
         self.c.next = bit_cast_to::<S<32>>(self.word_2.val().get_bits::<31>(0));
         self.q.next = bit_cast_to::<U<24>>(self.word_0.val().get_bits::<9>(25))
             | (bit_cast_to::<U<24>>(self.word_1.val().get_bits::<12>(22)) << 9)
@@ -358,12 +358,12 @@ impl Logic for Sift {
             self.corner_c.vertex.next = self.b.val();
         }
         self.s3_valid.d.next = self.issues.val();
-        self.xs_1.next = bit_cast_to::<Lanes<3, 22>>(self.corner_a.x.val());
-        self.xs_2.next = self.xs_1.val().replace_bit(1, self.corner_b.x.val());
-        self.s3_x.d.next = self.xs_2.val().replace_bit(2, self.corner_c.x.val());
-        self.ys_1.next = bit_cast_to::<Lanes<3, 22>>(self.corner_a.y.val());
-        self.ys_2.next = self.ys_1.val().replace_bit(1, self.corner_b.y.val());
-        self.s3_y.d.next = self.ys_2.val().replace_bit(2, self.corner_c.y.val());
+        self.xs_1.next = bit_cast_to::<Lanes<3, 22>>(self.corner_a.pixel_x.val());
+        self.xs_2.next = self.xs_1.val().replace_bit(1, self.corner_b.pixel_x.val());
+        self.s3_x.d.next = self.xs_2.val().replace_bit(2, self.corner_c.pixel_x.val());
+        self.ys_1.next = bit_cast_to::<Lanes<3, 22>>(self.corner_a.pixel_y.val());
+        self.ys_2.next = self.ys_1.val().replace_bit(1, self.corner_b.pixel_y.val());
+        self.s3_y.d.next = self.ys_2.val().replace_bit(2, self.corner_c.pixel_y.val());
         self.cs_1.next = bit_cast_to::<Lanes<3, 32>>(self.corner_a.c.val());
         self.cs_2.next = self.cs_1.val().replace_bit(1, self.corner_b.c.val());
         self.s3_c.d.next = self.cs_2.val().replace_bit(2, self.corner_c.c.val());
