@@ -164,7 +164,7 @@ fn netlists(blocks: &[&str], faults: usize) -> Outcome {
 
 /// Blocks whose netlist takes Yosys and Icarus minutes: hundreds of adders, or dozens of multipliers behind wide sums;
 /// and the design of all blocks.
-const LARGE: [&str; 5] = ["remesher", "face_normal", "gradient_normal", "light", "displacement_pipeline"];
+const LARGE: [&str; 6] = ["remesher", "displace", "face_normal", "gradient_normal", "light", "displacement_pipeline"];
 
 #[test]
 fn power_up_netlists_send_the_same_beats() -> Outcome {
