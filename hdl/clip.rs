@@ -31,7 +31,7 @@ pub use serial_product::SerialProduct;
 
 use crate::prelude::*;
 
-/// States.
+/// States; `src/prove/contract/clip.sv` knows some by their numbers.
 #[derive(Copy, Clone, PartialEq, Eq, Debug, LogicState)]
 #[allow(missing_docs)]
 pub enum ClipState {

@@ -177,16 +177,18 @@ fn synth_copies_what_many_read() -> Outcome {
     Ok(())
 }
 
+/// A flip-flop with an enable, as Yosys writes it.
+fn register(d: u64, q: u64, enable: u64) -> Value {
+    json!({
+        "type": "TRELLIS_FF", "parameters": {"CEMUX": "CE", "CLKMUX": "CLK"},
+        "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "LSR": "input", "Q": "output"},
+        "connections": {"CLK": [2], "CE": [enable], "DI": [d], "LSR": ["0"], "Q": [q]},
+    })
+}
+
 /// A block RAM of two bits, each in a register; then one bit that is read elsewhere, too, or a register that differs.
 #[test]
 fn synth_packs_registers_behind_block_ram() -> Outcome {
-    let register = |d: u64, q: u64, enable: u64| {
-        json!({
-            "type": "TRELLIS_FF", "parameters": {"CEMUX": "CE", "CLKMUX": "CLK"},
-            "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "LSR": "input", "Q": "output"},
-            "connections": {"CLK": [2], "CE": [enable], "DI": [d], "LSR": ["0"], "Q": [q]},
-        })
-    };
     let ram = json!({
         "type": "DP16KD",
         "parameters": {"REGMODE_A": "NOREG", "REGMODE_B": "NOREG", "CLKAMUX": "CLKA", "CLKBMUX": "CLKB", "DATA_WIDTH_B": "00010"},
@@ -243,17 +245,10 @@ fn synth_packs_registers_behind_block_ram() -> Outcome {
     Ok(())
 }
 
-/// A multiplier of which two bits are read, each in a register; then one that has its register already, and one that is read
-/// elsewhere, too.
+/// A multiplier of which two bits are read, each in a register; then the same once more, and one with a bit that is read elsewhere,
+/// too.
 #[test]
 fn synth_packs_registers_behind_a_multiplier() -> Outcome {
-    let register = |d: u64, q: u64| {
-        json!({
-            "type": "TRELLIS_FF", "parameters": {"CEMUX": "CE", "CLKMUX": "CLK"},
-            "port_directions": {"CLK": "input", "CE": "input", "DI": "input", "LSR": "input", "Q": "output"},
-            "connections": {"CLK": [2], "CE": [3], "DI": [d], "LSR": ["0"], "Q": [q]},
-        })
-    };
     let netlist = |outputs: Value| {
         json!({"modules": {"top": {
             "ports": {"clock": {"direction": "input", "bits": [2]}, "out": {"direction": "output", "bits": outputs}},
@@ -263,7 +258,7 @@ fn synth_packs_registers_behind_a_multiplier() -> Outcome {
                     "port_directions": {"A0": "input", "P0": "output", "P1": "output", "P2": "output"},
                     "connections": {"A0": [5], "P0": [10], "P1": [11], "P2": [12]},
                 },
-                "first": register(10, 20), "second": register(11, 21),
+                "first": register(10, 20, 3), "second": register(11, 21, 3),
             },
         }}})
     };

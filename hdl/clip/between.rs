@@ -10,7 +10,8 @@
 //! | done  | Bit              | the value stands, until the next start |
 //!
 //! The bits of |b - a| come one after another, the highest first: rest = 2 rest + bit p, and q is taken from it, at most twice,
-//! for rest < q and p < q make less than 3 q; what is left with q taken once and twice is made first, and chosen in the next cycle. So no number is longer than q and two bits, although the product has 112.
+//! for rest < q and p < q make less than 3 q; both differences are made in one cycle, and one is chosen in the next. So no number is
+//! longer than q and two bits, although the product has 112.
 //!
 //! With b < a the value is a less the quotient, and a half is rounded down: it is up for the value.
 

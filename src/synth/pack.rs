@@ -57,14 +57,14 @@ fn into_ram(
     halves: &[&str],
     side: &str,
 ) -> usize {
-    let ram = &cells[name];
+    let (connections, parameters) = (&cells[name]["connections"], &cells[name]["parameters"]);
     let clock = format!("CLK{side}");
-    let straight = ram["parameters"][format!("CLK{side}MUX")] == clock.as_str();
-    let held = halves.iter().any(|half| ram["parameters"][format!("REGMODE_{half}")] != "NOREG");
+    let straight = parameters[format!("CLK{side}MUX")] == clock.as_str();
+    let held = halves.iter().any(|half| parameters[format!("REGMODE_{half}")] != "NOREG");
     let outputs: Vec<String> = halves.iter().flat_map(|half| (0..18).map(move |k| format!("DO{half}{k}"))).collect();
     let Some(registers) = registers(cells, readers, name, &outputs) else { return 0 };
-    let ram = &cells[name]["connections"];
-    if !straight || held || ram[format!("RST{side}")][0] != "0" || ram[&clock][0] != registers.clock {
+    let fits = straight && !held && connections[format!("RST{side}")][0] == "0";
+    if !fits || connections[&clock][0] != registers.clock {
         return 0;
     }
     let enable = registers.enable.clone();
