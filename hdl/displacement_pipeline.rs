@@ -11,7 +11,7 @@
 //!
 //! | port     | format | meaning |   Golden: models::displacement_pipeline::Machine   Error: that of its parts
 //! | in_kind  | unsigned 3 | 0 constant, 1 record, 2 size of a level, 3 load of a sample, 4 triangle, 5 report |
-//! | in_index, in_value | unsigned 7, signed 63 | constant (0 ..= 43 of the transform, 64 ..= 80 of [`Constants`]) and its value; counter; place of a record |
+//! | in_index, in_value | unsigned 7, signed 63 | constant (0 ..= 43 of the transform, 64 ..= 81 of [`Constants`]) and its value; counter; place of a record |
 //! | in_data  | 9 x signed 48 | record; or level, width, height, base, pitch, two repeats; or level, i, j, sample; or places of three corners |
 //! | out_*    | stream | three vertices in winding order and their colour; or, with out_report, a counter |
 //! | error    | Bit    | sticky, of height fetch and strip unit |
@@ -27,6 +27,7 @@ mod narrow;
 mod passer;
 mod shading;
 mod sift;
+mod skip;
 mod vertices;
 
 pub use assembly::{Assembly, AssemblyState};
@@ -37,6 +38,7 @@ pub use narrow::{Narrow, NarrowLane};
 pub use passer::Passer;
 pub use shading::Shading;
 pub use sift::{Beyond, Sift, Unpack};
+pub use skip::{Extent, Skip};
 pub use vertices::Vertices;
 
 use crate::prelude::*;
@@ -96,6 +98,7 @@ pub struct DisplacementPipeline<
     assembly: Gated<Assembly<V, N>>,
     remesher: Gated<Remesher<9, V, W, X, N, T, A, P, K>>,
     passer: Passer<V>,
+    skip: Gated<Skip<V, N>>,
     vertices: Gated<Vertices<V, M, B>>,
     strip_unit: Gated<StripUnit<3, 34, K>>,
     shading: Gated<Shading>,
@@ -142,6 +145,7 @@ pub struct DisplacementPipeline<
     lane_6: Wire<S<48>>,
     lane_7: Wire<S<48>>,
     culled: Wire<U<3>>,
+    no_limit: Constant<S<21>>,
     no_x: Constant<Lanes<3, 22>>,
     no_c: Constant<Lanes<3, 32>>,
     no_height: Constant<Lanes<3, 25>>,
@@ -184,6 +188,7 @@ impl<
             assembly: Gated::default(),
             remesher: Gated::new(Remesher::new(depth)),
             passer: Passer::default(),
+            skip: Gated::default(),
             vertices: Gated::default(),
             strip_unit: Gated::new(StripUnit::new(depth)),
             shading: Gated::default(),
@@ -225,6 +230,7 @@ impl<
             lane_6: Wire::default(),
             lane_7: Wire::default(),
             culled: Wire::default(),
+            no_limit: Constant::new(S::new((1 << 20) - 1)),
             no_x: Constant::new(Lanes::default()),
             no_c: Constant::new(Lanes::default()),
             no_height: Constant::new(Lanes::default()),
@@ -247,7 +253,7 @@ impl<
 {
     #[hdl_gen]
     fn update(&mut self) {
-        clock!(self, clock, constants, assembly, remesher, passer, vertices, strip_unit, shading, counters);
+        clock!(self, clock, constants, assembly, remesher, passer, skip, vertices, strip_unit, shading, counters);
         dff_setup!(
             self,
             clock,
@@ -330,6 +336,7 @@ impl<
         if self.constants.passes.val() {
             self.assembly.piece_ready.next = self.passer.piece_ready.val();
         }
+        self.piece_goes.next = self.assembly.piece_valid.val() && self.assembly.piece_ready.val();
 
         // Steps
         self.remesher.in_valid.next = self.assembly.piece_valid.val() && !self.constants.passes.val();
@@ -363,6 +370,27 @@ impl<
         }
         self.remesher.out_ready.next = self.vertices.in_ready.val() && !self.constants.passes.val();
         self.passer.out_ready.next = self.vertices.in_ready.val() && self.constants.passes.val();
+        self.step_goes.next = self.vertices.in_valid.val() && self.vertices.in_ready.val();
+
+        // Those of strips off the screen
+        self.skip.goes.next = self.piece_goes.val() && !self.constants.passes.val();
+        self.skip.p0.next = self.assembly.piece_p0.val();
+        self.skip.p1.next = self.assembly.piece_p1.val();
+        self.skip.p2.next = self.assembly.piece_p2.val();
+        self.skip.c0.next = self.assembly.piece_v0.val().get_bit(2);
+        self.skip.c1.next = self.assembly.piece_v1.val().get_bit(2);
+        self.skip.c2.next = self.assembly.piece_v2.val().get_bit(2);
+        self.skip.on.next = self.constants.skips.val();
+        self.skip.half_width.next = self.constants.half_width.val();
+        self.skip.half_height.next = self.constants.half_height.val();
+        self.skip.reach.next = self.constants.reach.val();
+        self.skip.margin.next = self.constants.margin.val();
+        self.skip.take.next = self.step_goes.val() && self.vertices.in_last.val() && !self.constants.passes.val();
+        self.vertices.limit.next = self.skip.limit.val();
+        self.vertices.across.next = self.skip.across.val();
+        if self.constants.passes.val() {
+            self.vertices.limit.next = self.no_limit.val();
+        }
 
         // Vertices
         self.vertices.map_valid.next = self.in_valid.val() && self.idle.val() && self.is_map.val();
@@ -465,7 +493,6 @@ impl<
         self.error.next = self.sent_error.q.val();
 
         // Pieces on their way
-        self.piece_goes.next = self.assembly.piece_valid.val() && self.assembly.piece_ready.val();
         self.ends.next =
             self.strip_unit.out_valid.val() && self.shading.in_ready.val() && self.strip_unit.out_last.val();
         if self.piece_goes.val() && !self.ends.val() {
@@ -479,7 +506,6 @@ impl<
         self.counters.index.next = self.report_index.q.val();
         self.counters.read.next = self.reads.q.val();
         self.culled.next = self.assembly.reason.val();
-        self.step_goes.next = self.vertices.in_valid.val() && self.vertices.in_ready.val();
         self.counters.bases.next = self.in_valid.val() && self.in_ready.val() && self.is_triangle.val();
         self.counters.left.next = self.assembly.culled.val() && self.culled.val() == 0;
         self.counters.right.next = self.assembly.culled.val() && self.culled.val() == 1;
@@ -494,6 +520,7 @@ impl<
         self.counters.pieces.next = self.piece_goes.val();
         self.counters.steps.next = self.step_goes.val();
         self.counters.vertices.next = self.vertices.sends.val();
+        self.counters.skipped.next = self.vertices.skips.val();
         self.counters.triangles.next = self.shading.comes.val();
         self.counters.two_triangles.next = self.shading.two_come.val();
         self.counters.invalid.next = self.shading.invalid.val();
@@ -523,7 +550,7 @@ ports! {
     [const V: usize, const W: usize, const X: usize, const N: usize, const T: usize, const A: usize, const P: usize, const K: usize, const M: usize, const B: usize] DisplacementPipeline<V, W, X, N, T, A, P, K, M, B> {
         inputs: in_valid, in_kind, in_index, in_value, in_data, out_ready;
         outputs: in_ready, out_valid, out_report, out_value, out_x, out_y, out_c, out_height, out_colour, error;
-        blocks: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters;
-        state: constants, assembly, remesher, passer, vertices, strip_unit, shading, counters, sent, sent_error, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, begun, report_index, rested
+        blocks: constants, assembly, remesher, passer, skip, vertices, strip_unit, shading, counters;
+        state: constants, assembly, remesher, passer, skip, vertices, strip_unit, shading, counters, sent, sent_error, sent_report, sent_value, sent_x, sent_y, sent_c, sent_height, sent_colour, pieces, reads, reports, clears, begun, report_index, rested
     }
 }

@@ -16,10 +16,12 @@ mod commands;
 mod machine;
 mod measure;
 pub mod numbers;
+mod skip;
 
 pub use commands::{VERTEX_PLACES, commands};
 pub use machine::{Command, Machine, Sent, counter};
 pub use measure::{Deviation, Measure};
+pub use skip::{Reach, Skip};
 
 use crate::draw::{Draw, Request};
 use crate::mip_fetch::{self, Filter};
@@ -45,23 +47,27 @@ pub fn golden<'a>(
     }
     let pyramids = draw.rules.reads(pyramids);
     let mut unit = StripUnit::new(format.column_depth);
-    strips(draw, format, base, &mut unit, &mut |request| fetch(pyramids, request), &mut |_, out| {
+    strips(draw, format, base, None, &mut unit, &mut |request| fetch(pyramids, request), &mut |_, out| {
         out.triangles().for_each(&mut *sink);
     });
     debug_assert!(!unit.error(), "the remesher never asks for what the strip unit has not");
 }
 
 /// The steps of a piece with displaced vertices, and what the strip unit makes of them; `height` answers requests, in the
-/// order of the vertices.
+/// order of the vertices, but for those that `skip` skips.
 fn strips(
     draw: &Draw,
     format: &Format,
     base: &BaseTriangle,
+    skip: Option<Skip>,
     unit: &mut StripUnit,
     height: &mut impl FnMut(&Request) -> u32,
     sink: &mut impl FnMut(&Step, &StripOutput),
 ) {
-    let mut displaced = |vertex: &Vertex| draw.displace(vertex, height(&draw.request(vertex)));
+    let mut displaced = |vertex: &Vertex| {
+        let skipped = skip.and_then(|skip| skip.displaced(draw, vertex));
+        skipped.unwrap_or_else(|| draw.displace(vertex, height(&draw.request(vertex))))
+    };
     remesher::golden(format, base, &mut |step| {
         let mut step: Step = *step;
         if step.sends_left() {

@@ -197,7 +197,7 @@ impl Model for Golden {
 
 /// Refuses a constant whose value is not within its format.
 fn fit_constant(number: i64, value: i64) -> Result<(), String> {
-    let whole = |range: &RangeInclusive<i64>| fit_ranges(&[0, number, value], &[&(0..=0), &(0..=80), range]);
+    let whole = |range: &RangeInclusive<i64>| fit_ranges(&[0, number, value], &[&(0..=0), &(0..=81), range]);
     // Name, first bit, range; the fields fill the value from bit 0 on.
     let fields: &[(&str, u32, u32, RangeInclusive<i64>)] = match number as u64 {
         0..64 => match vertex_transform::range(number) {
@@ -207,7 +207,7 @@ fn fit_constant(number: i64, value: i64) -> Result<(), String> {
                 let what = || format!("number 3 is {value}, and half of the grid's range is a power of two");
                 return if odd { Err(what()) } else { Ok(()) };
             }
-            None => return Err(format!("number 2 is {number}, and constants are 0..=21, 32..=43 and 64..=80")),
+            None => return Err(format!("number 2 is {number}, and constants are 0..=21, 32..=43 and 64..=81")),
         },
         numbers::AXES | 65 => &[("size", 0, 14, 1..=8192), ("repeat", 14, 1, 0..=1), ("texel_bits", 15, 4, 1..=15)],
         numbers::LEVEL => &[("scale", 0, 24, 0..=0xff_ffff), ("shift", 24, 6, 0..=63), ("levels", 30, 4, 1..=15)],
@@ -226,7 +226,8 @@ fn fit_constant(number: i64, value: i64) -> Result<(), String> {
             ("half of the width", 8, 24, 0..=0xff_ffff),
             ("half of the height", 32, 24, 0..=0xff_ffff),
         ],
-        _ => return Err(format!("number 2 is {number}, and constants are 0..=21, 32..=43 and 64..=80")),
+        numbers::REACH => &[("reach", 0, 17, 0..=0x1_ffff), ("margin", 17, 17, 0..=0x1_ffff)],
+        _ => return Err(format!("number 2 is {number}, and constants are 0..=21, 32..=43 and 64..=81")),
     };
     let bits = fields.iter().map(|(_, at, bits, _)| at + bits).max().unwrap_or(0);
     whole(&(0..=(1 << bits) - 1))?;
@@ -332,6 +333,7 @@ impl Binding for DisplacementPipelineBinding {
 mod tests {
     use super::*;
     use relief_hdl::widths::{WIDTH_SETS, small};
+    use relief_models::displacement_pipeline::counter;
 
     #[test]
     fn commands_come_back_from_their_beats() {
@@ -379,7 +381,7 @@ mod tests {
     fn random_draws_fill_every_kind_and_every_counter() {
         for set in WIDTH_SETS.iter().filter(|set| DisplacementPipelineBinding.offered(set)) {
             let mut machine = machine(set);
-            let (mut kinds, mut counts, mut triangles, mut beats) = ([0u64; 8], [0u64; 20], 0, 0);
+            let (mut kinds, mut counts, mut triangles, mut beats) = ([0u64; 8], [0u64; counter::COUNT], 0, 0);
             for beat in DisplacementPipelineBinding.random(set, 7).take(60_000) {
                 beats += 1;
                 kinds[beat[0] as usize] += 1;
@@ -398,7 +400,7 @@ mod tests {
             assert!(kinds.iter().all(|count| *count > 0), "{kinds:?}");
             // A far plane that culls, and a lane out of range, are rare; the others come.
             let rare = [6, 9, 10, 16, 17];
-            assert!((0..20).all(|k| counts[k] > 0 || rare.contains(&k)), "{counts:?}");
+            assert!((0..counter::COUNT).all(|k| counts[k] > 0 || rare.contains(&k)), "{counts:?}");
         }
     }
 
@@ -415,9 +417,9 @@ mod tests {
             (parse(&[4, 0, 1]), "the line has 3 numbers, and 4 make a beat"),
             (parse(&[4, 0, 1, 512]), "number 4 is 512, not in 0..=511"),
             (parse(&[5, 128]), "number 2 is 128, not in 0..=127"),
-            (constant(22, 1), "number 2 is 22, and constants are 0..=21, 32..=43 and 64..=80"),
-            (constant(81, 1), "number 2 is 81, and constants are 0..=21, 32..=43 and 64..=80"),
-            (constant(-1, 1), "number 2 is -1, and constants are 0..=21, 32..=43 and 64..=80"),
+            (constant(22, 1), "number 2 is 22, and constants are 0..=21, 32..=43 and 64..=81"),
+            (constant(82, 1), "number 2 is 82, and constants are 0..=21, 32..=43 and 64..=81"),
+            (constant(-1, 1), "number 2 is -1, and constants are 0..=21, 32..=43 and 64..=81"),
             (constant(43, 3), "number 3 is 3, and half of the grid's range is a power of two"),
             (constant(64, 16), "number 3 has 0 for texel_bits, bits 15 on, not in 1..=15"),
             (constant(77, 1 << 16), "number 3 has 0 for shininess, bits 17 on, not in 1..=255"),

@@ -3,12 +3,12 @@
 
 mod common;
 
-use relief_hdl::widths::{small, terrain};
+use relief_hdl::widths::{large, small, terrain};
 use relief_testbench::binding::{Binding, Expected, expect_offered, offered_sets};
 use relief_testbench::check::emitted;
 use relief_testbench::cosim::{Link, Stalls, Stream, Verilator, tools};
-use relief_testbench::displacement_pipeline::DisplacementPipelineBinding;
-use relief_testbench::frame::LINKS;
+use relief_testbench::displacement_pipeline::{DisplacementPipelineBinding, command_beat};
+use relief_testbench::frame::{LINKS, commands_of, prepare};
 use relief_testbench::scoreboard::{Pattern, Scoreboard, Until};
 use std::fs;
 use std::path::Path;
@@ -164,9 +164,35 @@ fn displacement_pipeline_run_draws_the_picture_of_the_blocks() -> Outcome {
             assert_eq!(&object[what], of_blocks, "{name}: {what}");
         }
         assert_eq!(object["strip_triangles"], blocks["pipeline"]["triangles"], "{name}");
-        assert_eq!(object["vertices"], blocks["pipeline"]["vertices"], "{name}");
+        let count = |what: &str| object[what].as_u64().unwrap_or(0);
+        assert_eq!(blocks["pipeline"]["vertices"], count("vertices") + count("skipped"), "{name}");
         assert_eq!((&design["pixels"], &object["sent"]), (&blocks["pixels"], &design["triangles"]), "{name}");
         assert!(object["times"]["busy"].as_u64().is_some_and(|busy| busy > 300), "{design}");
+    }
+    Ok(())
+}
+
+/// Small pictures, whole, through the design in Rust: one with all that a terrain needs, one with a closed body and minima.
+#[test]
+fn displacement_pipeline_draws_small_pictures_in_rust() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let viewport = ("[640, 480]", "[96, 72]");
+    for (name, set, changes) in [
+        ("jacksboro_close.toml", &large::SET, vec![("cell_px = 2.0", "cell_px = 4.0"), viewport]),
+        (
+            "sphere.toml",
+            &small::SET,
+            vec![("cell_px = 2.0", "cell_px = 5.0\nextremum = \"vertex\""), ("[256, 129]", "[96, 60]"), viewport],
+        ),
+    ] {
+        let block = &DisplacementPipelineBinding;
+        let scene = relief_models::scene::read(&scene(folder.path(), name, &changes))?;
+        let prepared = prepare(&scene, set)?;
+        let beats: Vec<_> = commands_of(&prepared)?.iter().map(command_beat).collect();
+        let mut board = Scoreboard::new(block, set, Box::new(beats.into_iter()), Pattern::NONE);
+        let counts = board.run(Until::Exhausted, &mut |_, _, _| Ok(())).map_err(|mismatch| mismatch.to_string())?;
+        println!("{name}: {} beats in {} cycles", counts.checked, counts.cycles);
+        assert!(counts.checked > 500, "{name}: {} beats", counts.checked);
     }
     Ok(())
 }
@@ -195,6 +221,8 @@ fn displacement_pipeline_draws_every_scene() -> Outcome {
             let object = &report["objects"][0];
             let number = |value: &serde_json::Value| value.as_u64().unwrap() as f64;
             assert!(number(&object["times"]["busy"]) < 0.9 * number(&object["strip_triangles"]), "{object}");
+            // Most of those have no vertex on the screen or near it, and are not displaced.
+            assert!(number(&object["skipped"]) > 0.25 * number(&object["off_screen"]), "{object}");
         }
         drawn += 1;
     }

@@ -11,6 +11,7 @@
 //! | 77     | specular, shininess << 17 | unsigned 25 |
 //! | 78, 79 | light: direction, colour | 3 x SQ1.16, 3 x UQ2.16 |
 //! | 80     | culls, skips << 1, passes << 2, minima << 3; halves of the viewport << 8, << 32 | Bits; 2 x UQ16.8 |
+//! | 81     | reach, margin << 17 | 2 x UQ15.2 |
 
 use crate::prelude::*;
 
@@ -46,6 +47,8 @@ pub struct Constants {
     pub minima: Output<Bit>,
     pub half_width: Output<U<24>>,
     pub half_height: Output<U<24>>,
+    pub reach: Output<U<17>>,
+    pub margin: Output<U<17>>,
     focal_held: Register<U<32>>,
     z0_held: Register<S<47>>,
     axis_u_held: Register<U<19>>,
@@ -65,6 +68,7 @@ pub struct Constants {
     direction_held: Register<Lanes<3, 18>>,
     colour_held: Register<Lanes<3, 20>>,
     draw_held: Register<U<56>>,
+    reach_held: Register<U<34>>,
     bits: Wire<U<63>>,
     three: Wire<Lanes<3, 18>>,
     three_1: Wire<Lanes<3, 18>>,
@@ -80,6 +84,7 @@ impl Logic for Constants {
         dff_setup!(self, clock, focal_held, z0_held, axis_u_held, axis_v_held, level_held, minimum_held, range_held);
         dff_setup!(self, clock, exponent_held, pixel_held, ramp_0_held, ramp_1_held, ramp_2_held, ramp_3_held);
         dff_setup!(self, clock, ramp_4_held, ambient_held, shine_held, direction_held, colour_held, draw_held);
+        dff_setup!(self, clock, reach_held);
         self.focal.next = self.focal_held.q.val();
         self.z0.next = self.z0_held.q.val();
         self.axis_u.next = self.axis_u_held.q.val();
@@ -104,6 +109,8 @@ impl Logic for Constants {
         self.minima.next = self.draw_held.q.val().get_bit(3);
         self.half_width.next = self.draw_held.q.val().get_bits::<24>(8);
         self.half_height.next = self.draw_held.q.val().get_bits::<24>(32);
+        self.reach.next = self.reach_held.q.val().get_bits::<17>(0);
+        self.margin.next = self.reach_held.q.val().get_bits::<17>(17);
 
         self.bits.next = bit_cast_to::<U<63>>(self.value.val());
         self.three_1.next = bit_cast_to::<Lanes<3, 18>>(bit_cast_to::<S<18>>(self.bits.val().get_bits::<18>(0)));
@@ -151,6 +158,8 @@ impl Logic for Constants {
                 self.colour_held.d.next = self.wide.val();
             } else if self.index.val() == 80 {
                 self.draw_held.d.next = bit_cast_to::<U<56>>(self.value.val());
+            } else if self.index.val() == 81 {
+                self.reach_held.d.next = bit_cast_to::<U<34>>(self.value.val());
             }
         }
     }
@@ -160,4 +169,4 @@ impl Logic for Constants {
     }
 }
 
-watched! { [] Constants: write, index, value; ; focal_held, z0_held, axis_u_held, axis_v_held, level_held, minimum_held, range_held, exponent_held, pixel_held, ramp_0_held, ramp_1_held, ramp_2_held, ramp_3_held, ramp_4_held, ambient_held, shine_held, direction_held, colour_held, draw_held }
+watched! { [] Constants: write, index, value; ; focal_held, z0_held, axis_u_held, axis_v_held, level_held, minimum_held, range_held, exponent_held, pixel_held, ramp_0_held, ramp_1_held, ramp_2_held, ramp_3_held, ramp_4_held, ambient_held, shine_held, direction_held, colour_held, draw_held, reach_held }

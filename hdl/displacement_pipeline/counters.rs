@@ -3,7 +3,7 @@
 //!
 //! | port  | meaning |   Golden: models::displacement_pipeline::Machine, but for the cycles
 //! | clear | all counters become 0
-//! | index | the counter that is read: 0 .. 19 of what came, 24 .. 30 of cycles; the others are 0
+//! | index | the counter that is read: 0 .. 20 of what came, 21 which of 8 .. 10 and 15 .. 17 are not 0, 24 .. 30 of cycles; the others are 0
 //! | read  | it becomes the value, which stays
 //! | value | a cycle later
 //! | others | one more of them; with `two_*` two
@@ -111,6 +111,7 @@ pub struct Counters {
     pub off: Input<Bit>,
     pub two_off: Input<Bit>,
     pub sent: Input<Bit>,
+    pub skipped: Input<Bit>,
     pub cycles: Input<Bit>,
     pub piece_waits: Input<Bit>,
     pub silent: Input<Bit>,
@@ -138,6 +139,7 @@ pub struct Counters {
     beyond_count: PairCounter,
     off_count: PairCounter,
     sent_count: Counter,
+    skipped_count: Counter,
     cycles_count: Counter,
     piece_waits_count: Counter,
     silent_count: Counter,
@@ -146,6 +148,7 @@ pub struct Counters {
     strip_waits_count: Counter,
     out_waits_count: Counter,
     held: Register<U<32>>,
+    lost: Wire<U<32>>,
     chosen: Wire<U<32>>,
 }
 
@@ -183,7 +186,8 @@ impl Logic for Counters {
             lacks_room_count,
             sends_second_count,
             strip_waits_count,
-            out_waits_count
+            out_waits_count,
+            skipped_count
         );
         dff_setup!(self, clock, held);
         self.value.next = self.held.q.val();
@@ -232,6 +236,8 @@ impl Logic for Counters {
         self.off_count.twice.next = self.two_off.val();
         self.sent_count.clear.next = self.clear.val();
         self.sent_count.adds.next = self.sent.val();
+        self.skipped_count.clear.next = self.clear.val();
+        self.skipped_count.adds.next = self.skipped.val();
         self.cycles_count.clear.next = self.clear.val();
         self.cycles_count.adds.next = self.cycles.val();
         self.piece_waits_count.clear.next = self.clear.val();
@@ -246,6 +252,13 @@ impl Logic for Counters {
         self.strip_waits_count.adds.next = self.strip_waits.val();
         self.out_waits_count.clear.next = self.clear.val();
         self.out_waits_count.adds.next = self.out_waits.val();
+        // A bit for each reason to drop a base triangle or a triangle: it stays until the next draw.
+        self.lost.next = bit_cast_to::<U<32>>(self.near_count.count.val().any())
+            | (bit_cast_to::<U<32>>(self.lane_count.count.val().any()) << 1)
+            | (bit_cast_to::<U<32>>(self.grid_count.count.val().any()) << 2)
+            | (bit_cast_to::<U<32>>(self.invalid_count.count.val().any()) << 3)
+            | (bit_cast_to::<U<32>>(self.too_near_count.count.val().any()) << 4)
+            | (bit_cast_to::<U<32>>(self.beyond_count.count.val().any()) << 5);
         self.chosen.next = 0.into();
         if self.index.val() == 0 {
             self.chosen.next = self.bases_count.count.val();
@@ -287,6 +300,10 @@ impl Logic for Counters {
             self.chosen.next = self.off_count.count.val();
         } else if self.index.val() == 19 {
             self.chosen.next = self.sent_count.count.val();
+        } else if self.index.val() == 20 {
+            self.chosen.next = self.skipped_count.count.val();
+        } else if self.index.val() == 21 {
+            self.chosen.next = self.lost.val();
         } else if self.index.val() == 24 {
             self.chosen.next = self.cycles_count.count.val();
         } else if self.index.val() == 25 {
@@ -312,4 +329,4 @@ impl Logic for Counters {
     }
 }
 
-watched! { [] Counters: clear, index, read, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, two_triangles, invalid, two_invalid, too_near, two_too_near, beyond, two_beyond, off, two_off, sent, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, held }
+watched! { [] Counters: clear, index, read, bases, left, right, top, bottom, near_side, far_side, cut, near, lane, grid, pieces, steps, vertices, triangles, two_triangles, invalid, two_invalid, too_near, two_too_near, beyond, two_beyond, off, two_off, sent, skipped, cycles, piece_waits, silent, lacks_room, sends_second, strip_waits, out_waits; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, skipped_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count; bases_count, left_count, right_count, top_count, bottom_count, near_side_count, far_side_count, cut_count, near_count, lane_count, grid_count, pieces_count, steps_count, vertices_count, triangles_count, invalid_count, too_near_count, beyond_count, off_count, sent_count, skipped_count, cycles_count, piece_waits_count, silent_count, lacks_room_count, sends_second_count, strip_waits_count, out_waits_count, held }

@@ -9,16 +9,19 @@
 //!                     '-> lanes -----------------------------------> [displace] -> vertex
 //! ```
 //!
-//! A vertex goes on its way once there is a place for it at the end of it, so nothing on the way ever stands.
+//! A vertex goes on its way once there is a place for it at the end of it, so nothing on the way ever stands. One whose strips are off
+//! the screen ([`super::Skip`]) does not: its step carries on which side it is, and it leaves as a place far beyond that.
 //!
 //! | port     | format | meaning |   Interval 1, and 2 where a step sends two vertices; golden: models::displacement_pipeline
 //! | in_*     | stream | the step port; vertices of nine lanes of V bits
 //! | map_*    | stream | sizes and loads of [`crate::mip_fetch`], while no vertex is on its way
 //! | passes   | Bit    | the height is 0, whatever the map says
 //! | minima   | Bit    | vertices that face away read minima
+//! | limit, across | signed 21, Bit | of the step's piece: skipped is what has |X|, or |Y| across, of more than it, 1/4 pixel
 //! | out_*    | stream | the step port; vertices X' | flags << 22 | q << 25, Y' | (q >> 9) << 22, c' | (q >> 21) << 31
 //! | idle     | Bit    | nothing is on its way
-//! | sends, lacks_room, sends_second | Bit | a vertex goes; a step waits for room, or for its second vertex
+//! | sends, skips | Bit | a vertex goes, or is skipped
+//! | lacks_room, sends_second | Bit | a step waits for room, or for its second vertex
 
 use crate::displace::Displace;
 use crate::displacement_pipeline::lane_queue::LaneQueue;
@@ -57,6 +60,8 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     pub map_repeat_v: Input<Bit>,
     pub passes: Input<Bit>,
     pub minima: Input<Bit>,
+    pub limit: Input<S<21>>,
+    pub across: Input<Bit>,
     pub axis_u: Input<U<19>>,
     pub axis_v: Input<U<19>>,
     pub level: Input<U<35>>,
@@ -75,6 +80,7 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     pub out_right_vertex: Output<Lanes<3, 34>>,
     pub idle: Output<Bit>,
     pub sends: Output<Bit>,
+    pub skips: Output<Bit>,
     pub lacks_room: Output<Bit>,
     pub sends_second: Output<Bit>,
     pub error: Output<Bit>,
@@ -86,7 +92,17 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     second: Register<Bit>,
     s1_valid: Register<Bit>,
     s1_vertex: DataRegister<Lanes<9, V>>,
-    codes: Gated<LaneQueue<1, 8, 8>>,
+    s1_limit: DataRegister<S<21>>,
+    s1_across: DataRegister<Bit>,
+    /// The step has been accepted; it sends both, or the left one alone.
+    s1_step: Register<Bit>,
+    s1_code: DataRegister<S<13>>,
+    s1_both: DataRegister<Bit>,
+    s1_left: DataRegister<Bit>,
+    /// The left vertex of a step that sends both was skipped, and on which side.
+    left_skips: DataRegister<Bit>,
+    left_minus: DataRegister<Bit>,
+    codes: Gated<LaneQueue<1, 13, 8>>,
     perspective_correct: Gated<PerspectiveCorrect>,
     filter_level: Gated<FilterLevel>,
     facing: Gated<Facing>,
@@ -104,7 +120,15 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     both: Wire<Bit>,
     issues: Wire<Bit>,
     accepts: Wire<Bit>,
-    code: Wire<S<8>>,
+    code: Wire<S<13>>,
+    at: Wire<S<32>>,
+    quarter: Wire<S<21>>,
+    minus: Wire<Bit>,
+    skipped: Wire<Bit>,
+    enters: Wire<Bit>,
+    code_left: Wire<Bit>,
+    code_left_minus: Wire<Bit>,
+    code_right: Wire<Bit>,
     whole: Wire<Lanes<9, 32>>,
     whole_6: Wire<Lanes<6, 32>>,
     lane_x: Wire<S<V>>,
@@ -134,20 +158,30 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
     words_1: Wire<Lanes<3, 34>>,
     words_2: Wire<Lanes<3, 34>>,
     words: Wire<Lanes<3, 34>>,
-    head_code: Wire<U<8>>,
+    head_code: Wire<U<13>>,
+    /// The step has a displaced vertex on that side.
     head_left: Wire<Bit>,
     head_right: Wire<Bit>,
+    left_far: Wire<Lanes<3, 34>>,
+    right_far: Wire<Lanes<3, 34>>,
     complete: Wire<Bit>,
     takes_left: Wire<Bit>,
     leaves: Wire<Bit>,
     takes: Wire<Bit>,
     gone: Constant<U<6>>,
     most: Constant<U<9>>,
+    plus_x: Constant<Lanes<3, 34>>,
+    minus_x: Constant<Lanes<3, 34>>,
+    plus_y: Constant<Lanes<3, 34>>,
+    minus_y: Constant<Lanes<3, 34>>,
 }
 
 impl<const V: usize, const M: usize, const A: usize> Vertices<V, M, A> {
     /// Vertices, and steps, on their way at most: more than the cycles of the way, less than the places of the queues.
     const PLACES: usize = 250;
+    /// X' of a vertex that is skipped, and -X' in 22 bits.
+    const FAR: i64 = (1 << 21) - 1;
+    const FAR_MINUS: i64 = (1 << 22) - Self::FAR;
 }
 
 impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, A> {
@@ -178,6 +212,8 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             map_repeat_v: Input::default(),
             passes: Input::default(),
             minima: Input::default(),
+            limit: Input::default(),
+            across: Input::default(),
             axis_u: Input::default(),
             axis_v: Input::default(),
             level: Input::default(),
@@ -196,6 +232,7 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             out_right_vertex: Output::default(),
             idle: Output::default(),
             sends: Output::default(),
+            skips: Output::default(),
             lacks_room: Output::default(),
             sends_second: Output::default(),
             error: Output::default(),
@@ -205,6 +242,14 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             second: Register::default(),
             s1_valid: Register::default(),
             s1_vertex: DataRegister::default(),
+            s1_limit: DataRegister::default(),
+            s1_across: DataRegister::default(),
+            s1_step: Register::default(),
+            s1_code: DataRegister::default(),
+            s1_both: DataRegister::default(),
+            s1_left: DataRegister::default(),
+            left_skips: DataRegister::default(),
+            left_minus: DataRegister::default(),
             codes: Gated::default(),
             perspective_correct: Gated::default(),
             filter_level: Gated::default(),
@@ -223,6 +268,14 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             issues: Wire::default(),
             accepts: Wire::default(),
             code: Wire::default(),
+            at: Wire::default(),
+            quarter: Wire::default(),
+            minus: Wire::default(),
+            skipped: Wire::default(),
+            enters: Wire::default(),
+            code_left: Wire::default(),
+            code_left_minus: Wire::default(),
+            code_right: Wire::default(),
             whole: Wire::default(),
             whole_6: Wire::default(),
             lane_x: Wire::default(),
@@ -255,12 +308,18 @@ impl<const V: usize, const M: usize, const A: usize> Default for Vertices<V, M, 
             head_code: Wire::default(),
             head_left: Wire::default(),
             head_right: Wire::default(),
+            left_far: Wire::default(),
+            right_far: Wire::default(),
             complete: Wire::default(),
             takes_left: Wire::default(),
             leaves: Wire::default(),
             takes: Wire::default(),
             gone: Constant::new(U::new(32 - V as i64)),
             most: Constant::new(U::new(Self::PLACES as i64)),
+            plus_x: Constant::new(Lanes::new([Self::FAR, 0, 0])),
+            minus_x: Constant::new(Lanes::new([Self::FAR_MINUS, 0, 0])),
+            plus_y: Constant::new(Lanes::new([0, Self::FAR, 0])),
+            minus_y: Constant::new(Lanes::new([0, Self::FAR_MINUS, 0])),
         }
     }
 }
@@ -283,6 +342,7 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         );
         clock!(self, clock, displaced);
         dff_setup!(self, clock, vertices, steps, room, second, s1_valid, s1_vertex, left, has_left);
+        dff_setup!(self, clock, s1_limit, s1_across, s1_step, s1_code, s1_both, s1_left, left_skips, left_minus);
 
         // A step sends its vertices one after the other, and is taken with the last.
         self.sends_left.next = self.in_left.val() == 1;
@@ -292,7 +352,6 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.accepts.next = self.in_valid.val() && self.room.q.val() && !self.both.val();
         self.issues.next =
             self.in_valid.val() && self.room.q.val() && (self.sends_left.val() || self.sends_right.val());
-        self.sends.next = self.issues.val();
         self.lacks_room.next = self.in_valid.val() && !self.room.q.val();
         self.sends_second.next = self.in_valid.val() && self.room.q.val() && self.both.val();
         if self.in_valid.val() && self.room.q.val() {
@@ -303,17 +362,52 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         if self.sends_left.val() && !self.second.q.val() {
             self.s1_vertex.d.next = self.in_left_vertex.val();
         }
-        self.codes.push.next = self.accepts.val();
-        self.code.next = (bit_cast_to::<S<8>>(self.in_kind.val()) << 6)
-            | (bit_cast_to::<S<8>>(self.in_left.val()) << 4)
-            | (bit_cast_to::<S<8>>(self.in_right.val()) << 2)
-            | (bit_cast_to::<S<8>>(self.in_swap.val()) << 1)
-            | bit_cast_to::<S<8>>(self.in_last.val());
-        self.codes.data.next = bit_cast_to::<Lanes<1, 8>>(self.code.val());
+        self.s1_limit.d.next = self.limit.val();
+        self.s1_across.d.next = self.across.val();
+        self.s1_step.d.next = self.accepts.val();
+        self.s1_code.d.next = (bit_cast_to::<S<13>>(self.in_kind.val()) << 6)
+            | (bit_cast_to::<S<13>>(self.in_left.val()) << 4)
+            | (bit_cast_to::<S<13>>(self.in_right.val()) << 2)
+            | (bit_cast_to::<S<13>>(self.in_swap.val()) << 1)
+            | bit_cast_to::<S<13>>(self.in_last.val());
+        self.s1_both.d.next = self.sends_left.val() && self.sends_right.val();
+        self.s1_left.d.next = self.sends_left.val() && !self.sends_right.val();
+
+        // Far off the screen it goes no further, and the step says so.
+        self.whole.next = bit_cast_to::<Lanes<9, 32>>(self.s1_vertex.q.val()) << self.gone.val();
+        self.at.next = self.whole.val().get_bit(0);
+        if self.s1_across.q.val() {
+            self.at.next = self.whole.val().get_bit(1);
+        }
+        self.quarter.next = bit_cast_to::<S<21>>(self.at.val() >> 16);
+        self.minus.next = self.quarter.val() < 0;
+        self.skipped.next = self.s1_valid.q.val()
+            && (self.quarter.val() > self.s1_limit.q.val() || self.quarter.val() < -self.s1_limit.q.val());
+        self.enters.next = self.s1_valid.q.val() && !self.skipped.val();
+        self.sends.next = self.enters.val();
+        self.skips.next = self.skipped.val();
+        self.left_skips.enable.next = self.s1_valid.q.val();
+        self.left_skips.d.next = self.skipped.val();
+        self.left_minus.enable.next = self.s1_valid.q.val();
+        self.left_minus.d.next = self.minus.val();
+        self.code_left.next = self.s1_left.q.val() && self.skipped.val();
+        self.code_left_minus.next = self.minus.val();
+        self.code_right.next = !self.s1_left.q.val() && self.skipped.val();
+        if self.s1_both.q.val() {
+            self.code_left.next = self.left_skips.q.val();
+            self.code_left_minus.next = self.left_minus.q.val();
+        }
+        self.codes.push.next = self.s1_step.q.val();
+        self.code.next = self.s1_code.q.val()
+            | (bit_cast_to::<S<13>>(self.s1_across.q.val()) << 8)
+            | (bit_cast_to::<S<13>>(self.code_left.val()) << 9)
+            | (bit_cast_to::<S<13>>(self.code_left_minus.val()) << 10)
+            | (bit_cast_to::<S<13>>(self.code_right.val()) << 11)
+            | (bit_cast_to::<S<13>>(self.minus.val()) << 12);
+        self.codes.data.next = bit_cast_to::<Lanes<1, 13>>(self.code.val());
 
         // Its lanes go four ways; `room` stands for all that is ahead.
-        self.whole.next = bit_cast_to::<Lanes<9, 32>>(self.s1_vertex.q.val()) << self.gone.val();
-        self.lanes.push.next = self.s1_valid.q.val();
+        self.lanes.push.next = self.enters.val();
         self.lane_x.next = self.s1_vertex.q.val().get_bit(0);
         self.lanes_1.next = bit_cast_to::<Lanes<6, V>>(self.lane_x.val());
         self.lanes_2.next = self.lanes_1.val().replace_bit(1, self.s1_vertex.q.val().get_bit(1));
@@ -321,7 +415,7 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.lanes_4.next = self.lanes_3.val().replace_bit(3, self.s1_vertex.q.val().get_bit(3));
         self.lanes_5.next = self.lanes_4.val().replace_bit(4, self.s1_vertex.q.val().get_bit(4));
         self.lanes.data.next = self.lanes_5.val().replace_bit(5, self.s1_vertex.q.val().get_bit(5));
-        self.perspective_correct.in_valid.next = self.s1_valid.q.val();
+        self.perspective_correct.in_valid.next = self.enters.val();
         self.perspective_correct.in_u.next = self.whole.val().get_bit(6);
         self.perspective_correct.in_v.next = self.whole.val().get_bit(7);
         self.perspective_correct.in_c.next = self.whole.val().get_bit(2);
@@ -332,14 +426,14 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.perspective_correct.in_texel_bits_u.next = self.axis_u.val().get_bits::<4>(15);
         self.perspective_correct.in_texel_bits_v.next = self.axis_v.val().get_bits::<4>(15);
         self.perspective_correct.out_ready.next = true;
-        self.filter_level.in_valid.next = self.s1_valid.q.val();
+        self.filter_level.in_valid.next = self.enters.val();
         self.filter_level.in_density.next = self.whole.val().get_bit(8);
         self.filter_level.in_c.next = self.whole.val().get_bit(2);
         self.filter_level.in_scale.next = self.level.val().get_bits::<24>(0);
         self.filter_level.in_shift.next = self.level.val().get_bits::<6>(24);
         self.filter_level.in_levels.next = self.level.val().get_bits::<5>(30);
         self.filter_level.out_ready.next = self.mip_fetch.in_ready.val();
-        self.facing.in_valid.next = self.s1_valid.q.val();
+        self.facing.in_valid.next = self.enters.val();
         self.normal_x.next = self.whole.val().get_bit(3);
         self.normal_1.next = bit_cast_to::<Lanes<3, 32>>(self.normal_x.val());
         self.normal_2.next = self.normal_1.val().replace_bit(1, self.whole.val().get_bit(4));
@@ -422,9 +516,9 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.displaced.data.next = self.words.val();
 
         // A step leaves with its vertices; the left one of two waits for the right one.
-        self.head_code.next = bit_cast_to::<U<8>>(self.codes.head.val().get_bit(0));
-        self.head_left.next = self.head_code.val().get_bits::<2>(4) == 1;
-        self.head_right.next = self.head_code.val().get_bits::<2>(2).any();
+        self.head_code.next = bit_cast_to::<U<13>>(self.codes.head.val().get_bit(0));
+        self.head_left.next = self.head_code.val().get_bits::<2>(4) == 1 && !self.head_code.val().get_bit(9);
+        self.head_right.next = self.head_code.val().get_bits::<2>(2).any() && !self.head_code.val().get_bit(11);
         self.takes_left.next = self.codes.valid.val()
             && self.head_left.val()
             && self.head_right.val()
@@ -458,10 +552,35 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
             self.out_left_vertex.next = self.left.q.val();
         }
         self.out_right_vertex.next = self.displaced.head.val();
+        self.left_far.next = self.plus_x.val();
+        self.right_far.next = self.plus_x.val();
+        if self.head_code.val().get_bit(8) {
+            self.left_far.next = self.plus_y.val();
+            self.right_far.next = self.plus_y.val();
+            if self.head_code.val().get_bit(10) {
+                self.left_far.next = self.minus_y.val();
+            }
+            if self.head_code.val().get_bit(12) {
+                self.right_far.next = self.minus_y.val();
+            }
+        } else {
+            if self.head_code.val().get_bit(10) {
+                self.left_far.next = self.minus_x.val();
+            }
+            if self.head_code.val().get_bit(12) {
+                self.right_far.next = self.minus_x.val();
+            }
+        }
+        if self.head_code.val().get_bit(9) {
+            self.out_left_vertex.next = self.left_far.val();
+        }
+        if self.head_code.val().get_bit(11) {
+            self.out_right_vertex.next = self.right_far.val();
+        }
 
-        if self.issues.val() && !self.takes.val() {
+        if self.enters.val() && !self.takes.val() {
             self.vertices.d.next = self.vertices.q.val() + 1;
-        } else if !self.issues.val() && self.takes.val() {
+        } else if !self.enters.val() && self.takes.val() {
             self.vertices.d.next = self.vertices.q.val() - 1;
         }
         if self.accepts.val() && !self.leaves.val() {
@@ -470,7 +589,7 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
             self.steps.d.next = self.steps.q.val() - 1;
         }
         self.room.d.next = self.vertices.q.val() < self.most.val() && self.steps.q.val() < self.most.val();
-        self.idle.next = !self.vertices.q.val().any() && !self.steps.q.val().any();
+        self.idle.next = !self.vertices.q.val().any() && !self.steps.q.val().any() && !self.s1_valid.q.val();
     }
 
     fn timing(&self) -> Vec<TimingInfo> {
@@ -478,4 +597,4 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
     }
 }
 
-watched! { [const V: usize, const M: usize, const A: usize] Vertices<V, M, A>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, map_valid, map_loads, map_minima, map_level, map_i, map_j, map_value, map_base, map_minima_base, map_pitch, map_repeat_u, map_repeat_v, passes, minima, axis_u, axis_v, level, minimum, range, exponent, focal, out_ready; codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced; vertices, steps, room, second, s1_valid, s1_vertex, codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced, left, has_left }
+watched! { [const V: usize, const M: usize, const A: usize] Vertices<V, M, A>: in_valid, in_kind, in_left, in_right, in_swap, in_last, in_left_vertex, in_right_vertex, map_valid, map_loads, map_minima, map_level, map_i, map_j, map_value, map_base, map_minima_base, map_pitch, map_repeat_u, map_repeat_v, passes, minima, limit, across, axis_u, axis_v, level, minimum, range, exponent, focal, out_ready; codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced; vertices, steps, room, second, s1_valid, s1_vertex, codes, perspective_correct, filter_level, facing, aways, texels, mip_fetch, lanes, displace, displaced, left, has_left, s1_limit, s1_across, s1_step, s1_code, s1_both, s1_left, left_skips, left_minus }

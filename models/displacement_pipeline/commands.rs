@@ -10,6 +10,7 @@
 
 use super::machine::{Command, Light, counter};
 use super::numbers::{View, values};
+use super::skip::Reach;
 use crate::draw::Draw;
 use crate::mip_fetch;
 use crate::rules::Pyramids;
@@ -32,7 +33,8 @@ pub fn commands<'a>(
     skips: bool,
 ) -> Vec<Command> {
     // Half a pixel is 128 / 256 of one.
-    let view = View { skips, passes: draw.is_flat(), half: viewport.map(|side| i64::from(side) << 7) };
+    let half = viewport.map(|side| i64::from(side) << 7);
+    let view = View { skips, passes: draw.is_flat(), half, reach: Reach::new(draw, half) };
     let map = draw.rules.reads(pyramids.into());
     let mut out: Vec<Command> = map.commands(0).filter_map(Command::of_map).collect();
     out.extend(values(draw, light, &view).into_iter().map(|(number, value)| Command::Constant { number, value }));

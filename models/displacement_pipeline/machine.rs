@@ -5,6 +5,7 @@
 //! before number 0 it counts as nothing and sends nothing.
 
 use super::numbers::{self, View};
+use super::skip::{Reach, Skip};
 use super::strips;
 use crate::cull::Reason;
 use crate::displace::{displaced, flag};
@@ -109,8 +110,13 @@ pub mod counter {
     pub const OFF_SCREEN: usize = 18;
     /// Triangles sent.
     pub const SENT: usize = 19;
+    /// Vertices that were skipped, and not displaced.
+    pub const SKIPPED: usize = 20;
+    /// Which of the reasons to drop there were, base triangles' in bits 0 to 2 and triangles' in 3 to 5: a bit stays until the next
+    /// draw.
+    pub const LOST: usize = 21;
     /// How many depend on the commands alone; the others read 0.
-    pub const COUNT: usize = 20;
+    pub const COUNT: usize = 22;
     /// Cycles in which a base triangle was on its way.
     pub const BUSY: usize = 24;
     /// Cycles in which a piece waited for the remesher.
@@ -162,7 +168,7 @@ impl Machine {
             vertices: vec![draw.transformed(nothing); places],
             draw,
             light: Light { direction: [0; 3], colour: [0; 3] },
-            view: View { skips: false, passes: false, half: [0; 2] },
+            view: View { skips: false, passes: false, half: [0; 2], reach: Reach::default() },
             map: MipFetch::new(bank_words),
             unit: StripUnit::new(format.column_depth),
             counters: [0; counter::COUNT],
@@ -200,6 +206,7 @@ impl Machine {
             Command::Triangle { .. } => {}
             Command::Report { counter } => {
                 let at = counter as usize;
+                self.counters[counter::LOST] = self.lost();
                 let value = match self.counters.get(at) {
                     Some(count) => Some(u32::try_from(*count).unwrap_or(u32::MAX)),
                     None if counter::TIMES.contains(&at) => None,
@@ -208,6 +215,12 @@ impl Machine {
                 sink(Sent::Report { counter, value });
             }
         }
+    }
+
+    /// A bit for each reason of [`counter::DROPPED`] and of [`counter::NO_PLACE`].
+    fn lost(&self) -> u64 {
+        let of = |first: usize| self.counters[first..first + 3].iter().map(|count| u64::from(*count > 0));
+        of(counter::DROPPED).chain(of(counter::NO_PLACE)).enumerate().map(|(bit, set)| set << bit).sum()
     }
 
     fn triangle(&mut self, places: [usize; 3], sink: &mut impl FnMut(Sent)) {
@@ -235,18 +248,23 @@ impl Machine {
     }
 
     fn remesh(&mut self, piece: &BaseTriangle, sink: &mut impl FnMut(Sent)) {
-        let Self { format, draw, map, unit, counters, .. } = self;
+        let Self { format, draw, view, map, unit, counters, .. } = self;
+        let (mut sent, mut displaced) = (0, 0);
         let mut height = |request: &Request| {
             let &Request { level, u, v, minima } = request;
+            displaced += 1;
             let fetch = mip_fetch::Command::Fetch { level: level as usize, u, v, filter: Filter::Bilinear, minima };
             map.accept(&fetch).unwrap_or(0)
         };
         let mut triangles = Vec::new();
-        strips(draw, format, piece, unit, &mut height, &mut |step, out| {
+        let skip = Skip::of(draw, view, piece);
+        strips(draw, format, piece, skip, unit, &mut height, &mut |step, out| {
             counters[counter::STEPS] += 1;
-            counters[counter::VERTICES] += u64::from(step.sends_left()) + u64::from(step.sends_right());
+            sent += u64::from(step.sends_left()) + u64::from(step.sends_right());
             triangles.extend(out.triangles());
         });
+        counters[counter::VERTICES] += displaced;
+        counters[counter::SKIPPED] += sent - displaced;
         for triangle in triangles {
             self.finish(triangle, sink);
         }

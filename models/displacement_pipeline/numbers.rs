@@ -16,8 +16,10 @@
 //! | 78       | direction of the light: x, y, z, signed, 18 bits each | SQ1.16 |
 //! | 79       | colour of the light: red, green, blue, 20 bits each | UQ2.16 |
 //! | 80       | culls, skips, passes, minima where a vertex faces away, half of the viewport's width at 8 and height at 32 (24 bits each) | 1/256 pixel |
+//! | 81       | reach of the displacement, margin at 17 (17 bits each), see [`Reach`] | 1/4 pixel |
 
 use super::machine::Light;
+use super::skip::{self, Reach};
 use crate::draw::Draw;
 use crate::fixed::wrap;
 use crate::perspective_correct::Axis;
@@ -42,16 +44,21 @@ pub const SPECULAR: u64 = 77;
 pub const LIGHT: u64 = 78;
 /// Switches and viewport.
 pub const VIEWPORT: u64 = 80;
+/// How far displacement reaches.
+pub const REACH: u64 = 81;
 
 /// What a draw has besides its constants: what the picture wants of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct View {
-    /// Triangles whose three vertices are beyond one side of the viewport are left out.
+    /// Triangles whose three vertices are beyond one side of the viewport are left out, and vertices that have no others
+    /// are not displaced.
     pub skips: bool,
     /// Pieces go on as they are: no remesher, and height 0.
     pub passes: bool,
     /// Half of the viewport's width and height, 1/256 pixel.
     pub half: [i64; 2],
+    /// How far from the viewport a vertex matters.
+    pub reach: Reach,
 }
 
 /// The lowest of 63 bits, unsigned.
@@ -88,6 +95,7 @@ pub fn values(draw: &Draw, light: &Light, view: &View) -> Vec<(u64, i64)> {
     let switches =
         i64::from(draw.cull) | i64::from(view.skips) << 1 | i64::from(view.passes) << 2 | i64::from(minima) << 3;
     others.push(switches | view.half[0] << 8 | view.half[1] << 32);
+    others.push(view.reach.reach | view.reach.margin << skip::BITS);
     out.extend((AXES..).zip(others));
     out
 }
@@ -125,7 +133,12 @@ pub fn write(draw: &mut Draw, light: &mut Light, view: &mut View, number: u64, v
                 skips: part(value, 1, 1) == 1,
                 passes: part(value, 2, 1) == 1,
                 half: [8, 32].map(|from| part(value, from, 24).into()),
+                ..*view
             };
+        }
+        REACH => {
+            let [reach, margin] = [0, skip::BITS].map(|from| part(value, from, skip::BITS).into());
+            view.reach = Reach { reach, margin };
         }
         _ => return false,
     }

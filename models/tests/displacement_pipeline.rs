@@ -2,14 +2,16 @@
 //! The machine of the whole design against the chain of golden models that the harness runs.
 
 use glam::{DVec2, DVec3};
+use proptest::prelude::*;
 use relief_models::displace::displaced;
-use relief_models::displacement_pipeline::{Command, Machine, Sent, VERTEX_PLACES, commands, counter, golden};
+use relief_models::displacement_pipeline::{Command, Machine, Sent, VERTEX_PLACES, commands, counter, golden, numbers};
 use relief_models::draw::{Assembled, CameraView, Draw, DrawVertex, DropReason, MapInfo};
 use relief_models::light::Light;
 use relief_models::mip_build::{self, Centring, Extremum, Pyramid, Wrap};
-use relief_models::remesher::Format;
+use relief_models::remesher::{BaseTriangle, Format};
 use relief_models::rules::ExtremumRule;
 use relief_models::step::Vertex;
+use std::cell::Cell;
 
 const FORMAT: Format =
     Format { components: 9, vertex_bits: 32, guard_bits: 13, coordinate_bits: 14, column_depth: 4096 };
@@ -155,8 +157,17 @@ fn compare(draw: &Draw, format: &Format) -> Vec<u64> {
         assert_eq!(counts[1..11], by_reason[1..11]);
         assert_eq!(counts[counter::BASES], sum(counter::CULLED, 6) + sum(counter::DROPPED, 3) + kept);
         assert_eq!(counts[counter::PIECES], of_pieces);
-        assert_eq!([sum(counter::NO_PLACE, 3), counts[counter::OFF_SCREEN]], left_out);
+        // A vertex that is skipped is off the screen, and may have had no place.
+        let skipped = counts[counter::SKIPPED] > 0;
+        let of_counts = [sum(counter::NO_PLACE, 3), counts[counter::OFF_SCREEN]];
+        assert_eq!(of_counts.iter().sum::<u64>(), left_out.iter().sum::<u64>());
+        assert!(of_counts[0] <= left_out[0] && (skipped || of_counts[0] == left_out[0]) && (skips || !skipped));
         assert_eq!(counts[counter::SENT], triangles.len() as u64);
+        let dropped = [8, 9, 10, 15, 16, 17].into_iter().enumerate();
+        assert_eq!(
+            counts[counter::LOST],
+            dropped.map(|(bit, number)| u64::from(counts[number] > 0) << bit).sum::<u64>()
+        );
         assert_eq!(counts[counter::STRIP_TRIANGLES], sum(counter::NO_PLACE, 5));
         if draw.is_flat() {
             assert_eq!([counter::STEPS, counter::VERTICES].map(|k| counts[k]), [2 * of_pieces, 3 * of_pieces]);
@@ -263,9 +274,58 @@ fn machine_counts_by_draw_and_keeps_the_map() {
     let rest: Vec<Command> =
         all.iter().filter(|c| !matches!(c, Command::Size { .. } | Command::Load { .. })).copied().collect();
     assert_eq!(run(&mut machine, &rest), first);
-    // Nothing else is counted: 20 to 23 and those above 30 read 0.
-    for counter in (20..24).chain(31..128) {
+    // Nothing else is counted: 22, 23 and those above 30 read 0.
+    for counter in (22..24).chain(31..128) {
         let (_, reports) = run(&mut machine, &[Command::Report { counter }]);
         assert_eq!(reports, [(counter, Some(0))]);
     }
+}
+
+/// The commands of a draw with a reach so large that nothing is skipped.
+fn without_skipping(draw: &Draw, viewport: [u32; 2]) -> Vec<Command> {
+    let mut all = commands(draw, &pyramids(), &light(draw), viewport, true);
+    for command in &mut all {
+        if let Command::Constant { number: numbers::REACH, value } = command {
+            *value = (1 << 34) - 1;
+        }
+    }
+    all
+}
+
+/// Triangles of any shape, partly off the screen, their corners displaced any way: what is sent does not depend on skipping.
+#[test]
+fn machine_skips_only_what_is_off_the_screen() {
+    let place = || [-1.5..1.5f64, -1.5..1.5, -0.8..0.8].prop_map(DVec3::from_array);
+    let normal = || [-1.0..1.0f64, -1.0..1.0, 0.1..1.0].prop_map(DVec3::from_array);
+    let corners = [(place(), normal()), (place(), normal()), (place(), normal())];
+    let view = (-1.4..-0.5f64, 16u32..64, 16u32..64, prop::sample::select(vec![1.0, 2.0, 4.0, 8.0]), 0.4..1.6f64);
+    // Where displacement does next to nothing, the margin of the columns decides.
+    let displacement = ([-0.3..0.0f64, 0.0..0.4], prop::sample::select(vec![1.0, 0.01, 0.0001]));
+    let (skipped, sent) = (Cell::new(0), Cell::new(0));
+    let config = ProptestConfig { cases: 500, ..ProptestConfig::default() };
+    proptest!(config, |(corners in corners, (eye, width, height, cell_px, fov_y) in view, (heights, scale) in displacement)| {
+        let displacement = heights.map(|height| height * scale);
+        let uv = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.3), DVec2::new(0.4, 1.0)];
+        let vertex = |k: usize| DrawVertex { position: corners[k].0, normal: corners[k].1, uv: uv[k] };
+        let viewport = [width, height];
+        let view = CameraView { fov_y, viewport, cell_px, ..camera(DVec3::new(0.1, eye, 0.2), DVec3::new(0.0, 0.0, 0.1)) };
+        let made = Draw::new(&view, &[0, 1, 2].map(vertex), &[[0, 1, 2]], &MAP, displacement, &FORMAT);
+        prop_assume!(made.is_ok());
+        let mut draw = made.unwrap();
+        draw.cull = false;
+        let pieces = draw.assemble(0);
+        prop_assume!(pieces.pieces().iter().map(BaseTriangle::estimate).sum::<u64>() < 200_000);
+        let mut machine = Machine::new(&FORMAT, VERTEX_PLACES, BANK_WORDS);
+        let with = run(&mut machine, &commands(&draw, &pyramids(), &light(&draw), viewport, true));
+        let without = run(&mut machine, &without_skipping(&draw, viewport));
+        let count = |run: &(Vec<Lit>, Vec<(u64, Option<u32>)>), number: usize| run.1[number].1.unwrap();
+        prop_assert!(with.0 == without.0);
+        prop_assert_eq!(count(&without, counter::SKIPPED), 0);
+        let vertices = count(&with, counter::VERTICES) + count(&with, counter::SKIPPED);
+        prop_assert_eq!(vertices, count(&without, counter::VERTICES));
+        skipped.set(skipped.get() + count(&with, counter::SKIPPED));
+        sent.set(sent.get() + vertices);
+    });
+    println!("{} of {} vertices skipped", skipped.get(), sent.get());
+    assert!(skipped.get() > sent.get() / 20);
 }

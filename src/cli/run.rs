@@ -212,7 +212,8 @@ fn design_table(report: &DesignReport, seconds: f64, out: &Path) -> String {
     let no_place = sum(|object| object.no_place.invalid + object.no_place.near + object.no_place.range);
     let off = sum(|object| object.off_screen);
     row("triangles", format!("{} ({no_place} without a place and {off} off the screen left out)", report.triangles));
-    row("vertices displaced", sum(|object| object.vertices).to_string());
+    let skipped = sum(|object| object.skipped);
+    row("vertices displaced", format!("{} ({skipped} far off the screen left out)", sum(|object| object.vertices)));
     row("cycles", format!("{} for {} commands", report.cycles, report.commands));
     let busy = sum(|object| object.times.busy);
     let two = if report.triangles == 0 { 0.0 } else { 2.0 * busy as f64 / report.triangles as f64 };

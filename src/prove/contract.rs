@@ -348,7 +348,7 @@ pub const CONTRACTS: [Contract; 31] = [
         claims: &[],
         reach: 0,
         cut: &[],
-        loose: &["assembly", "remesher", "passer", "vertices", "strip_unit", "shading", "counters"],
+        loose: &["assembly", "remesher", "passer", "skip", "vertices", "strip_unit", "shading", "counters"],
         ..NONE
     },
     Contract {

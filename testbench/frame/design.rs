@@ -127,10 +127,12 @@ pub struct DrawReport {
     pub pieces: u32,
     pub steps: u32,
     pub vertices: u32,
+    pub skipped: u32,
     pub strip_triangles: u32,
     pub no_place: NoPlaceReport,
     pub off_screen: u32,
     pub sent: u32,
+    pub lost: u32,
     pub times: TimesReport,
 }
 
@@ -196,6 +198,7 @@ impl DrawReport {
             pieces: at(counter::PIECES),
             steps: at(counter::STEPS),
             vertices: at(counter::VERTICES),
+            skipped: at(counter::SKIPPED),
             strip_triangles: at(counter::STRIP_TRIANGLES),
             no_place: {
                 let [invalid, near, range] = std::array::from_fn(|k| reason(counter::NO_PLACE, k));
@@ -203,6 +206,7 @@ impl DrawReport {
             },
             off_screen: at(counter::OFF_SCREEN),
             sent: at(counter::SENT),
+            lost: at(counter::LOST),
             times: TimesReport {
                 busy: at(counter::BUSY),
                 piece_waits: at(counter::PIECE_WAITS),
