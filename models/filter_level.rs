@@ -20,7 +20,7 @@
 //!
 //! Gumhold & Huettner 1999, section 3.4, take half a difference vertex for the footprint. A corner lies on several edges
 //! with different ones, so its level, and with it its height, would depend on the triangle, and the mesh opens; the
-//! density is vertex data ([`rules`](crate::rules) has both to compare). Error of F: 2^-16 (1/A + 1/B + 1/F) relative, and
+//! density is vertex data ([`exact_footprint`](crate::exact_footprint) is the other, [`rules`](crate::rules) compares). Error of F: 2^-16 (1/A + 1/B + 1/F) relative, and
 //! 3 units of the lane over c.
 //!
 //! Example: rho = 200 texels a unit, z s cell = 0.01 units: F = 2.0, k = 1, level 0. At 3.0: k = 2, level 1.
@@ -65,10 +65,15 @@ pub const fn thresholds(footprint: u32) -> u32 {
     bits - 17 + (mantissa >= ROOT_OF_TWO) as u32
 }
 
+/// The level of a footprint on a map of so many levels, at least 1.
+pub fn level(footprint: u32, levels: u32) -> u32 {
+    // thresholds <= 16.
+    thresholds(footprint).saturating_sub(1).min(levels - 1)
+}
+
 /// The filter level.
 pub fn golden(constants: &Constants, lane: i64, inverse: (u32, u32)) -> u32 {
-    // thresholds <= 16.
-    thresholds(footprint(constants, lane, inverse)).saturating_sub(1).min(constants.levels - 1)
+    level(footprint(constants, lane, inverse), constants.levels)
 }
 
 /// The exact footprint in texels, unlimited, of lanes in units of the last place; `c` is above 0.

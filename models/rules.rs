@@ -4,7 +4,7 @@
 //! | `footprint` | filter level of a vertex from |
 //! |-------------|-------------------------------|
 //! | `density`   | the density of texels there, which is vertex data ([`filter_level`]); what the hardware does |
-//! | `exact`     | the difference vertices of the sweep ([`exact_footprint`]): those of the plane inside, that of the edge on an edge; at a corner the density |
+//! | `exact`     | the difference vertices of the sweep ([`exact_footprint`], a block in no draw): those of the plane inside, that of the edge on an edge; at a corner the density |
 //! | `paper`     | the same, and a corner takes the edge that the sweep meets it on, as Gumhold & Huettner 1999, section 3.4, have it |
 //!
 //! | `extremum` | levels that a vertex reads |
@@ -122,7 +122,7 @@ impl Rules {
         }
     }
 
-    /// Why there is no hardware for them, as the end of a sentence about `[remesh]`; `None` for those that it has.
+    /// Why the hardware of a draw does not have them, as the end of a sentence about `[remesh]`; `None` for those that it has.
     pub fn refusal(self) -> Option<String> {
         let (field, value, expected) = match self {
             Self { footprint: FootprintRule::Density, extremum: ExtremumRule::Triangle } => {
@@ -189,7 +189,8 @@ impl<'a> Ruled<'a> {
     /// What a vertex at `place` asks of the height map.
     pub fn request(&self, vertex: &Vertex, place: Place) -> Request {
         let request = self.draw.request(vertex);
-        let level = self.footprint(vertex, place).map(|footprint| self.level(footprint));
+        let levels = self.draw.level.levels;
+        let level = self.footprint(vertex, place).map(|footprint| filter_level::level(footprint, levels));
         Request { level: level.unwrap_or(request.level), ..request }
     }
 
@@ -228,11 +229,6 @@ impl<'a> Ruled<'a> {
             }
             Place::Corner(_) | Place::Interior { .. } => None,
         }
-    }
-
-    /// The level of a footprint.
-    fn level(&self, footprint: u32) -> u32 {
-        filter_level::thresholds(footprint).saturating_sub(1).min(self.draw.level.levels - 1)
     }
 
     /// Whether a vertex reads minima.
