@@ -24,13 +24,15 @@
 //! | s44_over_c      | B = rho / c                             | saturates at 48 bits |
 //! | s45 .. s55      | B scale, shifted by `shift`             | 72 bits |
 //! | s56_footprint   | F                                       | saturates at 32 bits |
-//! | s57 .. s61      | its leading zeros and mantissa          | |
-//! | s62, s63_level  | k - 1 of length and mantissa            | 0 ..= 15 |
-//! | s64_level       | at most the last                        | unsigned 4 |
+//! | s57 .. s64_level | k - 1, at most the last, [`Level`]     | 0 ..= 15 |
 //!
 //! Example: rho = 200, z s cell = 0.01: F = 2.0, k = 1, level 0; at F = 3.0, k = 2 and level 1.
 
-use crate::pipeline::{Delay, Flow, Leading, LongDelay, Product2x2, Product3x2, ShiftRight};
+mod level;
+
+pub use level::Level;
+
+use crate::pipeline::{Delay, Flow, LongDelay, Product2x2, Product3x2, ShiftRight};
 use crate::prelude::*;
 use crate::reciprocal::Inverse;
 
@@ -71,22 +73,15 @@ pub struct FilterLevel {
     s52_shift: LongDelay<6, 17, 17, 17>,
     s55_footprint: ShiftRight<74>,
     s56_footprint: DataRegister<U<32>>,
-    s61_leading: Leading,
-    s62_small: DataRegister<Bit>,
-    s62_reaches: DataRegister<Bit>,
-    s62_octave: DataRegister<U<5>>,
-    s63_level: DataRegister<U<5>>,
     s18_last: Delay<5, 17>,
     s63_last: LongDelay<5, 15, 15, 15>,
-    s64_level: DataRegister<U<5>>,
+    s64_level: Level,
     s64_footprint: Delay<32, 8>,
     flow: Flow<{ FilterLevel::STAGES }, 36>,
     go: Wire<Bit>,
     most_density: Constant<U<38>>,
     most_over_c: Constant<U<48>>,
     most_footprint: Constant<U<32>>,
-    /// ceil(sqrt(2) 2^23).
-    root_of_two: Constant<U<24>>,
 }
 
 impl Default for FilterLevel {
@@ -124,21 +119,15 @@ impl Default for FilterLevel {
             s52_shift: LongDelay::default(),
             s55_footprint: ShiftRight::default(),
             s56_footprint: DataRegister::default(),
-            s61_leading: Leading::default(),
-            s62_small: DataRegister::default(),
-            s62_reaches: DataRegister::default(),
-            s62_octave: DataRegister::default(),
-            s63_level: DataRegister::default(),
             s18_last: Delay::default(),
             s63_last: LongDelay::default(),
-            s64_level: DataRegister::default(),
+            s64_level: Level::default(),
             s64_footprint: Delay::default(),
             flow: Flow::default(),
             go: Wire::default(),
             most_density: Constant::new(U::MAX),
             most_over_c: Constant::new(U::MAX),
             most_footprint: Constant::new(U::MAX),
-            root_of_two: Constant::new(U::new((1i64 << 47).isqrt() + 1)),
         }
     }
 }
@@ -153,10 +142,9 @@ impl Logic for FilterLevel {
     #[hdl_gen]
     fn update(&mut self) {
         clock!(self, clock, inverse, s22_lane, s28_density, s28_amount, s31_density, s32_reciprocal, s40_over_c);
-        clock!(self, clock, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s61_leading);
-        clock!(self, clock, s18_last, s63_last, s64_footprint, flow);
+        clock!(self, clock, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s18_last);
+        clock!(self, clock, s63_last, s64_level, s64_footprint, flow);
         dff_setup!(self, clock, s1_lane, s1_scale, s1_shift, s1_last, s32_density, s44_over_c, s56_footprint);
-        dff_setup!(self, clock, s62_small, s62_reaches, s62_octave, s63_level, s64_level);
         self.go.next = self.flow.go.val();
         self.flow.in_valid.next = self.in_valid.val();
         self.in_ready.next = self.go.val();
@@ -199,9 +187,10 @@ impl Logic for FilterLevel {
         self.s55_footprint.value.next = self.s52_footprint.p.val();
         self.s55_footprint.amount.next = self.s52_shift.delayed.val();
 
-        // The level: of a footprint of 17 to 32 bits, 31 - zeros counts 0 to 15.
-        self.s61_leading.go.next = self.go.val();
-        self.s61_leading.value.next = bit_cast_to::<U<48>>(self.s56_footprint.q.val());
+        // The level
+        self.s64_level.go.next = self.go.val();
+        self.s64_level.footprint.next = self.s56_footprint.q.val();
+        self.s64_level.last.next = self.s63_last.delayed.val();
         self.s63_last.go.next = self.go.val();
         self.s63_last.value.next = self.s18_last.delayed.val();
         self.s18_last.go.next = self.go.val();
@@ -229,22 +218,9 @@ impl Logic for FilterLevel {
             if self.s55_footprint.shifted.val().get_bits::<42>(32).any() {
                 self.s56_footprint.d.next = self.most_footprint.val();
             }
-            self.s62_small.d.next = self.s61_leading.zeros.val().get_bit(5);
-            self.s62_octave.d.next = !bit_cast_to::<U<5>>(self.s61_leading.zeros.val());
-            self.s62_reaches.d.next = self.s61_leading.mantissa.val().get_bits::<24>(8) >= self.root_of_two.val();
-            self.s63_level.d.next = self.s62_octave.q.val();
-            if self.s62_small.q.val() {
-                self.s63_level.d.next = 0.into();
-            } else if !self.s62_reaches.q.val() && self.s62_octave.q.val().any() {
-                self.s63_level.d.next = self.s62_octave.q.val() - 1;
-            }
-            self.s64_level.d.next = self.s63_level.q.val();
-            if self.s63_level.q.val() > self.s63_last.delayed.val() {
-                self.s64_level.d.next = self.s63_last.delayed.val();
-            }
         }
 
-        self.flow.value.next = bit_cast_to::<WideU<36>>(self.s64_level.q.val())
+        self.flow.value.next = bit_cast_to::<WideU<36>>(self.s64_level.level.val())
             | (bit_cast_to::<WideU<36>>(self.s64_footprint.delayed.val()) << 4);
         self.flow.out_ready.next = self.out_ready.val();
         self.out_valid.next = self.flow.out_valid.val();
@@ -261,7 +237,7 @@ ports! {
     [] FilterLevel {
         inputs: in_valid, in_density, in_c, in_scale, in_shift, in_levels, out_ready;
         outputs: in_ready, out_valid, out_level, out_footprint;
-        blocks: inverse, s22_lane, s28_density, s28_amount, s31_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s61_leading, s18_last, s63_last, s64_footprint, flow;
-        state: inverse, s1_lane, s1_scale, s1_shift, s1_last, s22_lane, s28_density, s28_amount, s31_density, s32_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s56_footprint, s61_leading, s62_small, s62_reaches, s62_octave, s63_level, s18_last, s63_last, s64_level, s64_footprint, flow
+        blocks: inverse, s22_lane, s28_density, s28_amount, s31_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s18_last, s63_last, s64_level, s64_footprint, flow;
+        state: inverse, s1_lane, s1_scale, s1_shift, s1_last, s22_lane, s28_density, s28_amount, s31_density, s32_density, s32_reciprocal, s40_over_c, s40_amount, s43_over_c, s44_over_c, s44_scale, s52_footprint, s52_shift, s55_footprint, s56_footprint, s18_last, s63_last, s64_level, s64_footprint, flow
     }
 }

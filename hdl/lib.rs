@@ -8,6 +8,7 @@ pub mod clip;
 pub mod cull;
 pub mod displace;
 pub mod displacement_pipeline;
+pub mod exact_footprint;
 pub mod face_normal;
 pub mod facing;
 pub mod filter_level;

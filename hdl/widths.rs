@@ -113,6 +113,9 @@ macro_rules! width_sets {
                 pub type Remesher = crate::remesher::Remesher<
                     $l, $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,
                 >;
+                /// Exact footprint, of lanes and accumulators.
+                pub type ExactFootprint =
+                    crate::exact_footprint::ExactFootprint<$v, { $v + $g + 1 }, { 2 * $v + $g + 1 }>;
                 /// The whole datapath, offered at sets of nine components.
                 pub type DisplacementPipeline = crate::displacement_pipeline::DisplacementPipeline<
                     $v, { $v + $g + 1 }, { $v + $g + 3 }, $n, { $n + 3 }, { 2 * $n + 3 }, { $v + $g + $n + 4 }, $k,

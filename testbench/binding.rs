@@ -79,6 +79,7 @@ pub const BLOCKS: &[&dyn Binding] = &[
     &crate::rsqrt::RsqrtBinding,
     &crate::perspective_correct::PerspectiveCorrectBinding,
     &crate::filter_level::FilterLevelBinding,
+    &crate::exact_footprint::ExactFootprintBinding,
     &crate::facing::FacingBinding,
     &crate::displace::DisplaceBinding,
     &crate::power::PowerBinding,

@@ -28,6 +28,7 @@ pub mod cull;
 pub mod device;
 pub mod displace;
 pub mod displacement_pipeline;
+pub mod exact_footprint;
 pub mod face_normal;
 pub mod facing;
 pub mod filter_level;

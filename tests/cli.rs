@@ -13,7 +13,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const NAMES: [&str; 24] = [
+const NAMES: [&str; 25] = [
     "vertex_adder",
     "strip_unit",
     "remesher",
@@ -28,6 +28,7 @@ const NAMES: [&str; 24] = [
     "rsqrt",
     "perspective_correct",
     "filter_level",
+    "exact_footprint",
     "facing",
     "displace",
     "power",
@@ -568,6 +569,7 @@ fn cli_emitted_bench_notices_faults() -> Outcome {
         ("rsqrt", "1000"),
         ("perspective_correct", "1000"),
         ("filter_level", "1000"),
+        ("exact_footprint", "1000"),
         ("facing", "1000"),
         ("displace", "400"),
         ("power", "1000"),
@@ -665,6 +667,7 @@ fn synthesize(wanted: impl Fn(&str) -> bool) -> Outcome {
             "rsqrt" => 23,
             "perspective_correct" => 115,
             "filter_level" => 105,
+            "exact_footprint" => 60,
             "displace" => 350,
             "power" => 15,
             "face_normal" => 280,

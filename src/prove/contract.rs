@@ -127,7 +127,7 @@ const PIPELINE: Contract = Contract {
 const PART: Contract = Contract { exchange: None, cut: &[], ..NONE };
 
 /// All contracts: those of the blocks, then those of parts.
-pub const CONTRACTS: [Contract; 31] = [
+pub const CONTRACTS: [Contract; 32] = [
     Contract {
         name: "vertex_adder",
         text: include_str!("contract/vertex_adder.sv"),
@@ -267,6 +267,18 @@ pub const CONTRACTS: [Contract; 31] = [
         name: "filter_level",
         reach: 72,
         faults: &[fault(Property::Room, "flow_64_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
+        ..PIPELINE
+    },
+    Contract {
+        name: "exact_footprint",
+        // A vertex stands before the flow for its eight products.
+        text: concat!(
+            "    wire [$bits(\\block.flow.sending_q )+$bits(\\block.s2_factors.before_q )-1:0] sending =\n",
+            "        {\\block.flow.sending_q , \\block.s2_factors.before_q };\n",
+            include_str!("contract/pipeline.sv")
+        ),
+        reach: 70,
+        faults: &[fault(Property::Room, "flow_43_of_36", "moves_d = !spare_behind", "moves_d = 1'b1")],
         ..PIPELINE
     },
     Contract {
