@@ -4,14 +4,14 @@
 //! ```text
 //! in -+- constants -------------------------------------------> all
 //!     +- records, triangles -> assembly -+-> remesher -+-> vertices -> strip_unit -> shading -> out
-//!     +- map --------------------------- | ----------- | -> vertices
+//!     +- map --------------------------- +-> skip -----+-> vertices
 //!     '- reports -> counters -> out      '-> passer ---'
 //! ```
 //! (Gumhold & Huettner 1999, figure 3.)
 //!
 //! | port     | format | meaning |   Golden: models::displacement_pipeline::Machine   Error: that of its parts
 //! | in_kind  | unsigned 3 | 0 constant, 1 record, 2 size of a level, 3 load of a sample, 4 triangle, 5 report |
-//! | in_index, in_value | unsigned 7, signed 63 | constant (0 ..= 43 of the transform, 64 ..= 81 of [`Constants`]) and its value; counter; place of a record |
+//! | in_index, in_value | unsigned 7, signed 63 | constant (0 ..= 43 of the transform, 64 ..= 81 of [`Constants`]), its value; counter; place |
 //! | in_data  | 9 x signed 48 | record; or level, width, height, base, pitch, two repeats; or level, i, j, sample; or places of three corners |
 //! | out_*    | stream | three vertices in winding order and their colour; or, with out_report, a counter |
 //! | error    | Bit    | sticky, of height fetch and strip unit |
@@ -350,7 +350,8 @@ impl<
         self.passer.piece_v0.next = self.assembly.piece_v0.val();
         self.passer.piece_v1.next = self.assembly.piece_v1.val();
         self.passer.piece_v2.next = self.assembly.piece_v2.val();
-        self.vertices.in_valid.next = self.remesher.out_valid.val();
+        // The limit of its piece is there long before a step.
+        self.vertices.in_valid.next = self.remesher.out_valid.val() && self.skip.valid.val();
         self.vertices.in_kind.next = self.remesher.out_kind.val();
         self.vertices.in_left.next = self.remesher.out_left.val();
         self.vertices.in_right.next = self.remesher.out_right.val();
@@ -368,7 +369,8 @@ impl<
             self.vertices.in_left_vertex.next = self.passer.out_left_vertex.val();
             self.vertices.in_right_vertex.next = self.passer.out_right_vertex.val();
         }
-        self.remesher.out_ready.next = self.vertices.in_ready.val() && !self.constants.passes.val();
+        self.remesher.out_ready.next =
+            self.vertices.in_ready.val() && self.skip.valid.val() && !self.constants.passes.val();
         self.passer.out_ready.next = self.vertices.in_ready.val() && self.constants.passes.val();
         self.step_goes.next = self.vertices.in_valid.val() && self.vertices.in_ready.val();
 
@@ -390,6 +392,7 @@ impl<
         self.vertices.across.next = self.skip.across.val();
         if self.constants.passes.val() {
             self.vertices.limit.next = self.no_limit.val();
+            self.vertices.across.next = false;
         }
 
         // Vertices

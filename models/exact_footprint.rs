@@ -21,8 +21,9 @@
 //! | D     | lanes with g more bits behind the point | whole |
 //! | F     | UQ16.16 | saturates |
 //!
-//! Error: never above the exact value, below it by less than 2^-14 of it (8.9e-5 octaves) and 2^-16 texels a step: four times
-//! 17 bits are rounded down, by less than 2^-16 each (N, twice the root, the square), and |du| once.
+//! Error: never above the exact value, below it by less than 2^-14 of it (8.81e-5 octaves) and 2^-16 texels a step, which are up to
+//! 3.1e-5 octaves more at the first threshold: four times 17 bits are rounded down, by less than 2^-16 each (N, twice the root, the
+//! square), and |du| once.
 //!
 //! Example: c = 1/2, u c = 64 units of 2^texel_bits texels over 2^31, D_u = 2^20 of them and D_c = 0, texel_bits = 9:
 //! du = 2^20 / 2^30 512 = 1/2 texel a step, of which 0x7fff units of 2^-16 remain.

@@ -132,7 +132,7 @@ impl Rules {
             Self { footprint, .. } => ("footprint", footprint.name(), "density"),
         };
         Some(format!(
-            "`{field}` is \"{value}\", which the golden models alone have, for `relief stability` and `relief wagging`; \
+            "`{field}` is \"{value}\", which no draw of the hardware has, for `relief stability` and `relief wagging`; \
              \"{expected}\" is expected"
         ))
     }

@@ -96,8 +96,8 @@ pub struct Report {
     pub cycles_per_two_triangles: f64,
     /// Vertices displaced for each triangle.
     pub vertices_per_triangle: f64,
-    /// Triangles with a vertex at or behind the eye: not drawn.
-    pub invalid_triangles: u64,
+    /// Triangles with a vertex without a place: not drawn.
+    pub no_place: NoPlaceReport,
     /// Triangles of which two corners fell on one point: drawn without a pixel, and not in the mesh.
     pub collapsed_triangles: u64,
     /// Triangles that were drawn.
@@ -162,7 +162,7 @@ pub fn render(
     let mut out = Rendered {
         frame: Frame::new(width, height),
         edges: Frame::new(width * scale, height * scale),
-        report: Report { version: 4, golden: GOLDEN.to_vec(), ..Report::default() },
+        report: Report { version: 5, golden: GOLDEN.to_vec(), ..Report::default() },
     };
     if scene.lights.len() != 1 {
         // The block has one light.
@@ -195,7 +195,7 @@ pub fn render(
                 progress.advance(number);
                 mesh.groups_to(number + 1);
                 if !Draw::is_drawable(&triangle) {
-                    report.invalid_triangles += 1;
+                    report.no_place.count(&triangle);
                     return;
                 }
                 let corners = triangle.map(corner);

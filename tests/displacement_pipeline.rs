@@ -221,8 +221,9 @@ fn displacement_pipeline_draws_every_scene() -> Outcome {
             let object = &report["objects"][0];
             let number = |value: &serde_json::Value| value.as_u64().unwrap() as f64;
             assert!(number(&object["times"]["busy"]) < 0.9 * number(&object["strip_triangles"]), "{object}");
-            // Most of those have no vertex on the screen or near it, and are not displaced.
-            assert!(number(&object["skipped"]) > 0.25 * number(&object["off_screen"]), "{object}");
+            // Those of pieces that are swept across the screen are not displaced.
+            assert!(number(&object["skipped"]) > 20_000.0, "{object}");
+            assert!(report["simulation_seconds"].as_f64().is_some_and(|seconds| seconds < 60.0), "{report}");
         }
         drawn += 1;
     }

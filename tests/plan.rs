@@ -107,7 +107,7 @@ fn plan_and_run_refuse_with_a_sentence() -> Outcome {
     {
         fs::write(&path, PLATE.replace("cell_px = 4", &format!("cell_px = 4\n{rule}")))?;
         let (field, value) = rule.split_once(" = ").ok_or("no value")?;
-        let sentence = format!("scene.toml:6: [remesh] `{field}` is {value}, which the golden models alone have");
+        let sentence = format!("scene.toml:6: [remesh] `{field}` is {value}, which no draw of the hardware has");
         refused(&["plan", file], &sentence);
         refused(&["run", file], &sentence);
         refused(&["run", file, "--engine", "design"], expected);

@@ -11,7 +11,7 @@
 //! | 77     | specular, shininess << 17 | unsigned 25 |
 //! | 78, 79 | light: direction, colour | 3 x SQ1.16, 3 x UQ2.16 |
 //! | 80     | culls, skips << 1, passes << 2, minima << 3; halves of the viewport << 8, << 32 | Bits; 2 x UQ16.8 |
-//! | 81     | reach, margin << 17 | 2 x UQ15.2 |
+//! | 81     | reach, margin << 17; all ones after a reset, held inverted | 2 x UQ15.2 |
 
 use crate::prelude::*;
 
@@ -69,6 +69,7 @@ pub struct Constants {
     colour_held: Register<Lanes<3, 20>>,
     draw_held: Register<U<56>>,
     reach_held: Register<U<34>>,
+    reaches: Wire<U<34>>,
     bits: Wire<U<63>>,
     three: Wire<Lanes<3, 18>>,
     three_1: Wire<Lanes<3, 18>>,
@@ -109,8 +110,9 @@ impl Logic for Constants {
         self.minima.next = self.draw_held.q.val().get_bit(3);
         self.half_width.next = self.draw_held.q.val().get_bits::<24>(8);
         self.half_height.next = self.draw_held.q.val().get_bits::<24>(32);
-        self.reach.next = self.reach_held.q.val().get_bits::<17>(0);
-        self.margin.next = self.reach_held.q.val().get_bits::<17>(17);
+        self.reaches.next = !self.reach_held.q.val();
+        self.reach.next = self.reaches.val().get_bits::<17>(0);
+        self.margin.next = self.reaches.val().get_bits::<17>(17);
 
         self.bits.next = bit_cast_to::<U<63>>(self.value.val());
         self.three_1.next = bit_cast_to::<Lanes<3, 18>>(bit_cast_to::<S<18>>(self.bits.val().get_bits::<18>(0)));
@@ -159,7 +161,7 @@ impl Logic for Constants {
             } else if self.index.val() == 80 {
                 self.draw_held.d.next = bit_cast_to::<U<56>>(self.value.val());
             } else if self.index.val() == 81 {
-                self.reach_held.d.next = bit_cast_to::<U<34>>(self.value.val());
+                self.reach_held.d.next = !bit_cast_to::<U<34>>(self.value.val());
             }
         }
     }

@@ -14,12 +14,13 @@
 //! | s5    | the limit |
 //!
 //! | port   | format | meaning |   Latency 7; golden: models::displacement_pipeline::Skip
-//! | goes   | Bit    | a piece goes to the remesher, which needs 15 cycles at least before the piece's first step; 32 may be there
+//! | goes   | Bit    | a piece goes to the remesher; 32 may be there
 //! | p*, c* | 3 x signed N, signed V | its corners
 //! | on     | Bit    | vertices are skipped
 //! | half_*, reach, margin | UQ16.8, UQ15.2 | of the draw
 //! | take   | Bit    | the last step of the oldest piece goes
-//! | limit, across | signed 21, Bit | of the oldest piece, 1/4 pixel; across: the axis is y   Error 0
+//! | valid  | Bit    | limit and across are those of the oldest piece
+//! | limit, across | signed 21, Bit | 1/4 pixel; across: the axis is y   Error 0
 
 use crate::displacement_pipeline::lane_queue::LaneQueue;
 use crate::prelude::*;
@@ -89,6 +90,7 @@ pub struct Skip<const V: usize, const N: usize> {
     pub reach: Input<U<17>>,
     pub margin: Input<U<17>>,
     pub take: Input<Bit>,
+    pub valid: Output<Bit>,
     pub limit: Output<S<21>>,
     pub across: Output<Bit>,
     along_x: Extent<N>,
@@ -137,6 +139,7 @@ impl<const V: usize, const N: usize> Default for Skip<V, N> {
             reach: Input::default(),
             margin: Input::default(),
             take: Input::default(),
+            valid: Output::default(),
             limit: Output::default(),
             across: Output::default(),
             along_x: Extent::default(),
@@ -229,6 +232,7 @@ impl<const V: usize, const N: usize> Logic for Skip<V, N> {
         self.word.next = (bit_cast_to::<S<22>>(self.s5_limit.q.val()) << 1) | bit_cast_to::<S<22>>(self.s5_y.q.val());
         self.limits.data.next = bit_cast_to::<Lanes<1, 22>>(self.word.val());
         self.limits.take.next = self.take.val() && self.limits.valid.val();
+        self.valid.next = self.limits.valid.val();
         self.head.next = self.limits.head.val().get_bit(0);
         self.limit.next = bit_cast_to::<S<21>>(self.head.val() >> 1);
         self.across.next = self.head.val().get_bit(0);

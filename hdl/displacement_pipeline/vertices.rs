@@ -177,7 +177,7 @@ pub struct Vertices<const V: usize, const M: usize, const A: usize> {
 }
 
 impl<const V: usize, const M: usize, const A: usize> Vertices<V, M, A> {
-    /// Vertices, and steps, on their way at most: more than the cycles of the way, less than the places of the queues.
+    /// Vertices, and steps, on their way, and two more at most: more than the cycles of the way, less than the places of the queues.
     const PLACES: usize = 250;
     /// X' of a vertex that is skipped, and -X' in 22 bits.
     const FAR: i64 = (1 << 21) - 1;
@@ -373,7 +373,8 @@ impl<const V: usize, const M: usize, const A: usize> Logic for Vertices<V, M, A>
         self.s1_both.d.next = self.sends_left.val() && self.sends_right.val();
         self.s1_left.d.next = self.sends_left.val() && !self.sends_right.val();
 
-        // Far off the screen it goes no further, and the step says so.
+        // Far off the screen it goes no further, and the step says so: bit 8 across, 9 and 10 the left one skipped and on the negative
+        // side, 11 and 12 the right one.
         self.whole.next = bit_cast_to::<Lanes<9, 32>>(self.s1_vertex.q.val()) << self.gone.val();
         self.at.next = self.whole.val().get_bit(0);
         if self.s1_across.q.val() {

@@ -4,7 +4,7 @@
 //! `N = |a' b' - a b|`, where a' and b' came the cycle before
 //!
 //! | port     | format     | meaning |   Latency 17 from the second factors, interval 2; holds while `go` is low
-//! | a        | signed W   | D_u or D_v, then D_c; W <= 52
+//! | a        | signed W   | D_u or D_v, then D_c; W <= 49
 //! | b        | signed V   | c, then u c or v c; V <= 32
 //! | mantissa | unsigned 17 | from the leading one on; lower bits are dropped; 0 if N is 0
 //! | zeros, long | unsigned 6, Bit | N has 48 - zeros bits, and 32 more if it is long; 63 zeros and 0 if N is 0

@@ -168,7 +168,7 @@ impl Machine {
             vertices: vec![draw.transformed(nothing); places],
             draw,
             light: Light { direction: [0; 3], colour: [0; 3] },
-            view: View { skips: false, passes: false, half: [0; 2], reach: Reach::default() },
+            view: View { skips: false, passes: false, half: [0; 2], reach: Reach::NONE },
             map: MipFetch::new(bank_words),
             unit: StripUnit::new(format.column_depth),
             counters: [0; counter::COUNT],

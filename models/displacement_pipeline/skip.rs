@@ -6,10 +6,10 @@
 //! nor the next ones, all triangles with that vertex are off the screen, and its height is nobody's concern.
 //!
 //! ```text
-//! X' = (X + d n_x f c) / (1 + d n_z c), |n| <= 1:    |X| > half + reach c  =>  |X'| > half, or X' has no place
+//! X' = (X + d n_x f c) / (1 + d n_z c), |n| <= 1:    |X| > half + reach c  =>  |X'| > half on the same side, or X' has no place
 //! reach = max |d| / z0 (f + half)        pixels at c = 1
-//! skipped <=> |X| > half + reach c + margin,  c the greatest of the piece;  margin = 3 cells: one from column to column, and a
-//!             corner or a vertex of an edge stands up to half a cell beside its column, each, on both sides
+//! skipped <=> |X| > half + reach c + margin,  c the greatest of the piece
+//! margin = 1 + 2 (1/2 + 1/2) cells: to the next column; and corners are rounded to the grid, and vertices of edges once more
 //! ```
 //!
 //! | value | format | |
@@ -18,8 +18,8 @@
 //! | limit | UQ18.2 | half + reach c + margin + 3/4, of c with 16 bits, rounded up |
 //! | X, Y of a vertex | SQ13.2 | lanes, rounded down |
 //!
-//! Error: none, whatever is skipped is off the screen (`models/tests/displacement_pipeline.rs`). Example: half 320, c 1/2, reach 40,
-//! margin 6: the limit is 346.75, and a vertex at X = -400 is skipped; it goes on at X' = -8191.996.
+//! Error: none, whatever is skipped is off the screen. Example: half 320, c 1/2, reach 40, margin 6: the limit is 346.75, and a
+//! vertex at X = -400 is skipped; it goes on at X' = -8191.996.
 
 use super::numbers::View;
 use crate::draw::Draw;
@@ -33,7 +33,7 @@ pub const BITS: u32 = 17;
 const FAR: i64 = (1 << 21) - 1;
 
 /// What a draw says of it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reach {
     /// How far displacement moves a vertex at c = 1 at most, 1/4 pixel.
     pub reach: i64,
@@ -42,6 +42,9 @@ pub struct Reach {
 }
 
 impl Reach {
+    /// Nothing is skipped: a limit beyond every lane.
+    pub const NONE: Self = Self { reach: (1 << BITS) - 1, margin: (1 << BITS) - 1 };
+
     /// That of a draw for a viewport of two halves, 1/256 pixel.
     pub fn new(draw: &Draw, half: [i64; 2]) -> Self {
         let displacement = &draw.displacement;
@@ -53,9 +56,8 @@ impl Reach {
         let reach = libm::ceil(4.0 * ratio * farthest * (1.0 + 1.0 / 1024.0)) + 1.0;
         let cell = 16_777_216.0 / f64::from(draw.transform.inverse_cell.max(1));
         let margin = libm::ceil(12.0 * cell);
-        let most = (1 << BITS) - 1;
-        if reach > most as f64 || margin > most as f64 {
-            return Self { reach: most, margin: most };
+        if reach.max(margin) > Self::NONE.reach as f64 {
+            return Self::NONE;
         }
         Self { reach: reach as i64, margin: margin as i64 }
     }

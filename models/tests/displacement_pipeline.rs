@@ -4,7 +4,9 @@
 use glam::{DVec2, DVec3};
 use proptest::prelude::*;
 use relief_models::displace::displaced;
-use relief_models::displacement_pipeline::{Command, Machine, Sent, VERTEX_PLACES, commands, counter, golden, numbers};
+use relief_models::displacement_pipeline::{
+    Command, Machine, Reach, Sent, VERTEX_PLACES, commands, counter, golden, numbers,
+};
 use relief_models::draw::{Assembled, CameraView, Draw, DrawVertex, DropReason, MapInfo};
 use relief_models::light::Light;
 use relief_models::mip_build::{self, Centring, Extremum, Pyramid, Wrap};
@@ -281,51 +283,77 @@ fn machine_counts_by_draw_and_keeps_the_map() {
     }
 }
 
-/// The commands of a draw with a reach so large that nothing is skipped.
-fn without_skipping(draw: &Draw, viewport: [u32; 2]) -> Vec<Command> {
+/// The commands of a draw that skips, with another reach and margin.
+fn with_reach(draw: &Draw, viewport: [u32; 2], change: impl Fn(i64) -> i64) -> Vec<Command> {
     let mut all = commands(draw, &pyramids(), &light(draw), viewport, true);
     for command in &mut all {
         if let Command::Constant { number: numbers::REACH, value } = command {
-            *value = (1 << 34) - 1;
+            *value = change(*value);
         }
     }
     all
 }
 
-/// Triangles of any shape, partly off the screen, their corners displaced any way: what is sent does not depend on skipping.
+/// Triangles of any shape, partly off the screen, their corners displaced any way: what is sent does not depend on skipping, but
+/// does on how far a vertex has to be off the screen.
 #[test]
 fn machine_skips_only_what_is_off_the_screen() {
     let place = || [-1.5..1.5f64, -1.5..1.5, -0.8..0.8].prop_map(DVec3::from_array);
     let normal = || [-1.0..1.0f64, -1.0..1.0, 0.1..1.0].prop_map(DVec3::from_array);
-    let corners = [(place(), normal()), (place(), normal()), (place(), normal())];
-    let view = (-1.4..-0.5f64, 16u32..64, 16u32..64, prop::sample::select(vec![1.0, 2.0, 4.0, 8.0]), 0.4..1.6f64);
+    let corners = [(place(), normal()), (place(), normal()), (place(), normal()), (place(), normal())];
+    let cells = prop::sample::select(vec![1.0, 2.0, 4.0, 8.0, 20.0]);
+    let view = (-1.4..-0.5f64, 16u32..128, 16u32..128, cells, 0.4..1.6f64);
     // Where displacement does next to nothing, the margin of the columns decides.
     let displacement = ([-0.3..0.0f64, 0.0..0.4], prop::sample::select(vec![1.0, 0.01, 0.0001]));
+    let format = prop::sample::select(vec![FORMAT, NARROW]);
     let (skipped, sent) = (Cell::new(0), Cell::new(0));
-    let config = ProptestConfig { cases: 500, ..ProptestConfig::default() };
-    proptest!(config, |(corners in corners, (eye, width, height, cell_px, fov_y) in view, (heights, scale) in displacement)| {
+    // Draws that are another picture without margin, and without reach.
+    let wrong = [Cell::new(0), Cell::new(0)];
+    let config = ProptestConfig { cases: 400, ..ProptestConfig::default() };
+    proptest!(config, |(corners in corners, (eye, width, height, cell_px, fov_y) in view, (heights, scale) in displacement, format in format)| {
         let displacement = heights.map(|height| height * scale);
-        let uv = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.3), DVec2::new(0.4, 1.0)];
+        let uv = [DVec2::new(0.0, 0.0), DVec2::new(1.0, 0.3), DVec2::new(0.4, 1.0), DVec2::new(1.0, 1.0)];
         let vertex = |k: usize| DrawVertex { position: corners[k].0, normal: corners[k].1, uv: uv[k] };
         let viewport = [width, height];
         let view = CameraView { fov_y, viewport, cell_px, ..camera(DVec3::new(0.1, eye, 0.2), DVec3::new(0.0, 0.0, 0.1)) };
-        let made = Draw::new(&view, &[0, 1, 2].map(vertex), &[[0, 1, 2]], &MAP, displacement, &FORMAT);
+        let made = Draw::new(&view, &[0, 1, 2, 3].map(vertex), &[[0, 1, 2], [2, 1, 3]], &MAP, displacement, &format);
         prop_assume!(made.is_ok());
         let mut draw = made.unwrap();
         draw.cull = false;
-        let pieces = draw.assemble(0);
-        prop_assume!(pieces.pieces().iter().map(BaseTriangle::estimate).sum::<u64>() < 200_000);
-        let mut machine = Machine::new(&FORMAT, VERTEX_PLACES, BANK_WORDS);
-        let with = run(&mut machine, &commands(&draw, &pyramids(), &light(&draw), viewport, true));
-        let without = run(&mut machine, &without_skipping(&draw, viewport));
+        let amount = |index| draw.assemble(index).pieces().iter().map(BaseTriangle::estimate).sum::<u64>();
+        prop_assume!(amount(0) + amount(1) < 200_000);
+        let mut machine = Machine::new(&format, VERTEX_PLACES, BANK_WORDS);
+        let mut with = |change: fn(i64) -> i64| run(&mut machine, &with_reach(&draw, viewport, change));
+        let (kept, all) = (with(|value| value), with(|_| (1 << 34) - 1));
         let count = |run: &(Vec<Lit>, Vec<(u64, Option<u32>)>), number: usize| run.1[number].1.unwrap();
-        prop_assert!(with.0 == without.0);
-        prop_assert_eq!(count(&without, counter::SKIPPED), 0);
-        let vertices = count(&with, counter::VERTICES) + count(&with, counter::SKIPPED);
-        prop_assert_eq!(vertices, count(&without, counter::VERTICES));
-        skipped.set(skipped.get() + count(&with, counter::SKIPPED));
+        prop_assert!(kept.0 == all.0);
+        prop_assert_eq!(count(&all, counter::SKIPPED), 0);
+        let vertices = count(&kept, counter::VERTICES) + count(&kept, counter::SKIPPED);
+        prop_assert_eq!(vertices, count(&all, counter::VERTICES));
+        skipped.set(skipped.get() + count(&kept, counter::SKIPPED));
         sent.set(sent.get() + vertices);
+        let others = [with(|value| value % (1 << 17)), with(|value| value >> 17 << 17)];
+        for (wrong, other) in wrong.iter().zip(others) {
+            wrong.set(wrong.get() + u64::from(other.0 != all.0));
+        }
     });
-    println!("{} of {} vertices skipped", skipped.get(), sent.get());
-    assert!(skipped.get() > sent.get() / 20);
+    println!(
+        "{} of {} vertices skipped; wrong without margin, and without reach: {wrong:?}",
+        skipped.get(),
+        sent.get()
+    );
+    assert!(skipped.get() > sent.get() / 20 && wrong.iter().all(|wrong| wrong.get() > 0));
+}
+
+/// Displacement that reaches farther than the format of a reach says, and cells that do: nothing is skipped.
+#[test]
+fn machine_skips_nothing_where_displacement_reaches_far() {
+    let view = camera(DVec3::new(0.1, -1.0, 0.4), DVec3::new(0.3, 1.0, 0.0));
+    let half = VIEWPORT.map(|side| i64::from(side) << 7);
+    let near = draw(&view, &ground(1.0, 2), [-0.02, 0.05], &FORMAT);
+    assert!(Reach::new(&near, half) != Reach::NONE);
+    let far = draw(&view, &ground(1.0, 2), [-20.0, 50.0], &FORMAT);
+    assert_eq!(Reach::new(&far, half), Reach::NONE);
+    let coarse = CameraView { cell_px: 4096.0, ..view };
+    assert!(Reach::new(&draw(&coarse, &ground(1.0, 2), [-0.02, 0.05], &FORMAT), half).margin == 49_152);
 }

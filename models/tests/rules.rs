@@ -207,7 +207,7 @@ fn rules_are_read_from_a_scene_and_planning_refuses_those_of_golden() {
         assert_eq!(planner.err().map(|error| error.to_string()), rules.refusal());
     }
     let refusal = |remesh: &str| scene(remesh).unwrap().remesh.rules.refusal().unwrap();
-    let golden_alone = "which the golden models alone have, for `relief stability` and `relief wagging`";
+    let golden_alone = "which no draw of the hardware has, for `relief stability` and `relief wagging`";
     assert_eq!(
         refusal("footprint = \"exact\""),
         format!("`footprint` is \"exact\", {golden_alone}; \"density\" is expected")

@@ -13,8 +13,8 @@ use relief_testbench::binding::find;
 use relief_testbench::check::{self, emission};
 use relief_testbench::cosim::Stalls;
 use relief_testbench::frame::{
-    CulledReport, DesignError, DesignReport, DrawReport, Prepared, Report, expect_drawable, prepare, render,
-    render_by_design, width_set,
+    CulledReport, DesignError, DesignReport, DrawReport, NoPlaceReport, Prepared, Report, expect_drawable, prepare,
+    render, render_by_design, width_set,
 };
 use relief_testbench::output::{MadeFolder, OutputFile, OutputFolder};
 use relief_testbench::pipeline::{BLOCKS, Pipeline, PipelineRecording};
@@ -209,9 +209,9 @@ fn design_table(report: &DesignReport, seconds: f64, out: &Path) -> String {
     let dropped = sum(|object| object.dropped.near + object.dropped.lane + object.dropped.grid);
     let (bases, cut) = (sum(|object| object.base_triangles), sum(|object| object.cut));
     row("base triangles", format!("{bases} ({culled} culled, {cut} cut, {dropped} dropped)"));
-    let no_place = sum(|object| object.no_place.invalid + object.no_place.near + object.no_place.range);
+    let no_place = report.objects.iter().fold(NoPlaceReport::default(), |all, object| all.and(object.no_place));
     let off = sum(|object| object.off_screen);
-    row("triangles", format!("{} ({no_place} without a place and {off} off the screen left out)", report.triangles));
+    row("triangles", format!("{} ({off} off the screen, {no_place} left out)", report.triangles));
     let skipped = sum(|object| object.skipped);
     row("vertices displaced", format!("{} ({skipped} far off the screen left out)", sum(|object| object.vertices)));
     row("cycles", format!("{} for {} commands", report.cycles, report.commands));
@@ -247,10 +247,17 @@ fn surprises(report: &Report, cull: bool) -> Vec<String> {
     if report.pixels == 0 && report.assembled.kept > 0 {
         surprises.push("no pixel shows anything of it".to_owned());
     }
-    let lost = report.invalid_triangles;
+    let NoPlaceReport { invalid, near, range } = report.no_place;
+    let lost = invalid + near;
     if !cull && lost > 0 {
         let what = format!("{lost} triangles reach to the eye or behind it, so the mesh is open there");
         surprises.push(format!("{what}; an `eye` farther away, or less `displacement`, keeps them"));
+    }
+    if range > 0 {
+        let what = format!(
+            "{range} triangles reach beyond 8192 pixels, more than X' and Y' of any width set hold, and are left out"
+        );
+        surprises.push(format!("{what}; an `eye` farther away, or a smaller `viewport`, keeps them"));
     }
     surprises
 }
@@ -264,13 +271,7 @@ fn table(report: &Report, seconds: f64, out: &Path) -> String {
         let _ = writeln!(text, "{name:26} {value}");
     };
     row("base triangles", format!("{} ({culled} culled, {cut} cut, {dropped} dropped)", report.base_triangles));
-    row(
-        "triangles",
-        format!(
-            "{} ({} behind the eye, {} collapsed)",
-            counts.triangles, report.invalid_triangles, report.collapsed_triangles
-        ),
-    );
+    row("triangles", format!("{} ({}, {} collapsed)", counts.triangles, report.no_place, report.collapsed_triangles));
     row("vertices displaced", format!("{} ({:.3} a triangle)", counts.vertices, report.vertices_per_triangle));
     let two = report.cycles_per_two_triangles;
     row("cycles", format!("{} ({two:.3} for two triangles)", counts.cycles));

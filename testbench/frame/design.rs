@@ -19,12 +19,15 @@ use crate::displacement_pipeline::{
     DisplacementPipelineBinding, command_beat, expected_of, machine, report_of, triangle_of,
 };
 use relief_hdl::widths::WidthSet;
+use relief_models::displace::{displaced, flag};
 use relief_models::displacement_pipeline::{Command, commands, counter};
 use relief_models::light::Light;
 use relief_models::mesh::{InputError, Progress};
 use relief_models::raster::Frame;
 use relief_models::scene::{Entry, Scene};
+use relief_models::step::Vertex;
 use serde::Serialize;
+use std::fmt;
 
 /// Cycles without an output beat after which nothing more comes: all has left before the last counter is asked for.
 const DRAIN: u64 = 4096;
@@ -157,13 +160,46 @@ pub struct DroppedReport {
     pub grid: u32,
 }
 
-/// By [`flag`](relief_models::displace::flag).
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+/// By [`flag`], the lowest one of the three vertices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[allow(missing_docs)] // The flags say it.
 pub struct NoPlaceReport {
     pub invalid: u32,
     pub near: u32,
     pub range: u32,
+}
+
+impl NoPlaceReport {
+    /// One triangle more.
+    pub fn count(&mut self, triangle: &[Vertex; 3]) {
+        let flags = triangle.iter().fold(0, |all, vertex| all | vertex[displaced::FLAGS]);
+        let reason = match flags {
+            flags if flags & flag::INVALID != 0 => &mut self.invalid,
+            flags if flags & flag::NEAR != 0 => &mut self.near,
+            _ => &mut self.range,
+        };
+        *reason += 1;
+    }
+
+    /// Both.
+    #[must_use]
+    pub const fn and(self, other: Self) -> Self {
+        let Self { invalid, near, range } = other;
+        Self { invalid: self.invalid + invalid, near: self.near + near, range: self.range + range }
+    }
+}
+
+/// `12 without a place: 10 behind the eye, 2 nearer than near / 16`, naming what there is.
+impl fmt::Display for NoPlaceReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { invalid, near, range } = *self;
+        write!(f, "{} without a place", invalid + near + range)?;
+        let named = [(invalid, "behind the eye"), (near, "nearer than near / 16"), (range, "beyond 8192 pixels")];
+        for (k, (count, what)) in named.into_iter().filter(|(count, _)| *count > 0).enumerate() {
+            write!(f, "{} {count} {what}", if k == 0 { ":" } else { "," })?;
+        }
+        Ok(())
+    }
 }
 
 /// Cycles, see [`counter`].
@@ -287,7 +323,7 @@ pub fn render_by_design(
     let [width, height] = scene.camera.viewport;
     let mut frame = Frame::new(width, height);
     let mut report = DesignReport {
-        version: 1,
+        version: 2,
         engine: "design",
         width_set: set.name,
         simulation_seconds: simulated.as_secs_f64(),

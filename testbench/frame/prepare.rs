@@ -297,7 +297,7 @@ mod tests {
             let error = prepare(&scene, &WIDTH_SETS[0]).err().unwrap().to_string();
             let (field, value) = rule.split_once(" = ").unwrap();
             let expected = format!(
-                "scene.toml:3: [remesh] `{field}` is {value}, which the golden models alone have, for `relief stability` and \
+                "scene.toml:3: [remesh] `{field}` is {value}, which no draw of the hardware has, for `relief stability` and \
                  `relief wagging`; \"{expected}\" is expected"
             );
             assert_eq!(error, expected);
