@@ -13,12 +13,12 @@ use std::time::Duration;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// The remesher sends a hundred beats for one that it takes, vertex_transform and clip take 65 and thousands of cycles for
-/// one; others have over 60 multipliers, which are gates in a netlist.
+/// The remesher sends a hundred beats for one that it takes, exact_footprint, vertex_transform and clip take 8, 65 and
+/// thousands of cycles for one; others have over 60 multipliers, which are gates in a netlist.
 fn vectors(block: &str) -> &'static str {
     match block {
         "remesher" => "60",
-        "displace" | "face_normal" | "gradient_normal" | "light" | "vertex_transform" => "120",
+        "displace" | "exact_footprint" | "face_normal" | "gradient_normal" | "light" | "vertex_transform" => "120",
         "clip" => "30",
         _ => "400",
     }
