@@ -19,7 +19,7 @@ pub mod numbers;
 mod skip;
 
 pub use commands::{VERTEX_PLACES, commands};
-pub use machine::{Command, Machine, Sent, counter};
+pub use machine::{Command, Machine, Sent, counter, no_place};
 pub use measure::{Deviation, Measure};
 pub use skip::{Reach, Skip};
 

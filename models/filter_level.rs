@@ -20,8 +20,8 @@
 //!
 //! Gumhold & Huettner 1999, section 3.4, take half a difference vertex for the footprint. A corner lies on several edges
 //! with different ones, so its level, and with it its height, would depend on the triangle, and the mesh opens; the
-//! density is vertex data ([`exact_footprint`](crate::exact_footprint) is the other, [`rules`](crate::rules) compares). Error of F: 2^-16 (1/A + 1/B + 1/F) relative, and
-//! 3 units of the lane over c.
+//! density is vertex data ([`exact_footprint`](crate::exact_footprint) is the other, [`rules`](crate::rules) compares). Error of F:
+//! 2^-16 (1/A + 1/B + 1/F) relative, and 3 units of the lane over c.
 //!
 //! Example: rho = 200 texels a unit, z s cell = 0.01 units: F = 2.0, k = 1, level 0. At 3.0: k = 2, level 1.
 

@@ -296,7 +296,7 @@ const fn dropped(reason: DropReason) -> usize {
 }
 
 /// Why a triangle has no place: the number of the lowest flag of its vertices.
-fn no_place(vertices: &[Vertex; 3]) -> Option<usize> {
+pub fn no_place(vertices: &[Vertex; 3]) -> Option<usize> {
     let flags = vertices.iter().fold(0, |all, vertex| all | vertex[displaced::FLAGS]);
     [flag::INVALID, flag::NEAR, flag::RANGE].iter().position(|flag| flags & flag != 0)
 }

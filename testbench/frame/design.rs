@@ -19,8 +19,7 @@ use crate::displacement_pipeline::{
     DisplacementPipelineBinding, command_beat, expected_of, machine, report_of, triangle_of,
 };
 use relief_hdl::widths::WidthSet;
-use relief_models::displace::{displaced, flag};
-use relief_models::displacement_pipeline::{Command, commands, counter};
+use relief_models::displacement_pipeline::{Command, commands, counter, no_place};
 use relief_models::light::Light;
 use relief_models::mesh::{InputError, Progress};
 use relief_models::raster::Frame;
@@ -160,7 +159,7 @@ pub struct DroppedReport {
     pub grid: u32,
 }
 
-/// By [`flag`], the lowest one of the three vertices.
+/// By [`flag`](relief_models::displace::flag), the lowest one of the three vertices.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[allow(missing_docs)] // The flags say it.
 pub struct NoPlaceReport {
@@ -170,15 +169,14 @@ pub struct NoPlaceReport {
 }
 
 impl NoPlaceReport {
-    /// One triangle more.
+    /// One triangle more, if it has no place.
     pub fn count(&mut self, triangle: &[Vertex; 3]) {
-        let flags = triangle.iter().fold(0, |all, vertex| all | vertex[displaced::FLAGS]);
-        let reason = match flags {
-            flags if flags & flag::INVALID != 0 => &mut self.invalid,
-            flags if flags & flag::NEAR != 0 => &mut self.near,
-            _ => &mut self.range,
-        };
-        *reason += 1;
+        match no_place(triangle) {
+            None => {}
+            Some(0) => self.invalid += 1,
+            Some(1) => self.near += 1,
+            Some(_) => self.range += 1,
+        }
     }
 
     /// Both.
